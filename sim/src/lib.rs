@@ -1,0 +1,1 @@
+//! The clocked highlight pipeline, its analyses, and the `blysk` command.

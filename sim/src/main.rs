@@ -1,0 +1,3 @@
+//! The `blysk` command.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Cases for the highlight pipeline and the files they travel in.
