@@ -110,6 +110,13 @@ impl QFormat {
         .checked()
     }
 
+    /// An unsigned integer format for a field of the hardware's own (an address, flags): `width` bits,
+    /// held to 1 to 63.
+    #[must_use]
+    pub fn field(width: u32) -> Self {
+        Self { signed: false, integer: width.clamp(1, MAX_WIDTH) as i32, fraction: 0 }
+    }
+
     fn checked(self) -> Result<Self, FormatError> {
         let width = i64::from(self.integer) + i64::from(self.fraction);
         // 63 fraction bits at most: an exact decimal then has at most 63 digits after the point.

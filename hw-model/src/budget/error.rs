@@ -1,0 +1,166 @@
+//! Error bounds of the polynomial: how much each register's fraction bits add.
+
+use super::polynomial::{derivative, magnitude};
+use super::{Bound, RowPolynomial};
+use crate::rounding::Rounding;
+
+/// The registers whose fraction bits the budget chooses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Register {
+    /// The variable, u (x is taken as it comes).
+    V,
+    /// Coefficient of v³.
+    C3,
+    /// Coefficient of v².
+    C2,
+    /// Coefficient of v.
+    C1,
+    /// Constant coefficient.
+    C0,
+    /// Result of stage 1.
+    T1,
+    /// Result of stage 2.
+    T2,
+}
+
+impl Register {
+    /// Every register, in the order of [`FractionBits`].
+    pub const ALL: [Self; 7] = [
+        Self::V,
+        Self::C3,
+        Self::C2,
+        Self::C1,
+        Self::C0,
+        Self::T1,
+        Self::T2,
+    ];
+
+    /// The name used in configurations and messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::V => "u",
+            Self::C3 => "c3",
+            Self::C2 => "c2",
+            Self::C1 => "c1",
+            Self::C0 => "c0",
+            Self::T1 => "t1",
+            Self::T2 => "t2",
+        }
+    }
+}
+
+/// Fraction bits of every register, indexed by [`Register`].
+pub type FractionBits = [u32; Register::ALL.len()];
+
+/// The power coefficients of a Horner chain over `terms` (constant term first): where each stage
+/// subtracts, every odd power changes sign.
+pub(super) fn horner(terms: &[f64], subtract: bool) -> Vec<f64> {
+    let sign = |power: usize| {
+        if subtract && power % 2 == 1 {
+            -1.0
+        } else {
+            1.0
+        }
+    };
+    terms
+        .iter()
+        .enumerate()
+        .map(|(power, term)| sign(power) * term)
+        .collect()
+}
+
+/// How strongly an error in each register shows in the result of one row.
+#[derive(Debug, Clone, Copy)]
+pub struct Sensitivity {
+    row: RowPolynomial,
+    slope: f64,
+}
+
+/// What the formats are between: input and output fraction bits, form and rounding.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings {
+    /// Fraction bits of x.
+    pub input: u32,
+    /// Fraction bits of the intensity.
+    pub output: u32,
+    /// True in the centred form.
+    pub centred: bool,
+    /// The rounding of every line.
+    pub rounding: Rounding,
+}
+
+impl Surroundings {
+    /// The greatest error of a rounding line that keeps `fraction` bits.
+    pub(crate) fn line_error(&self, fraction: u32) -> f64 {
+        let ulp = (-f64::from(fraction)).exp2();
+        if self.rounding.is_nearest() {
+            0.5 * ulp
+        } else {
+            ulp
+        }
+    }
+}
+
+impl Sensitivity {
+    /// The sensitivity of a row.
+    #[must_use]
+    pub fn of(row: RowPolynomial, surroundings: &Surroundings) -> Self {
+        let polynomial = horner(&row.coefficients, surroundings.centred);
+        Self {
+            row,
+            slope: magnitude(&derivative(&polynomial), row.v),
+        }
+    }
+
+    /// The row.
+    #[must_use]
+    pub const fn row(&self) -> &RowPolynomial {
+        &self.row
+    }
+
+    /// The error bounds of the row, in output ulp.
+    #[must_use]
+    pub fn bound(&self, bits: &FractionBits, surroundings: &Surroundings) -> Bound {
+        let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
+        let v = self.row.v.1;
+        let coefficient = [c0, c1, c2, c3]
+            .iter()
+            .zip(self.row.coefficients)
+            .rev()
+            .fold(0.0, |sum, (&fraction, value)| {
+                sum * v + coefficient_error(value, fraction)
+            });
+        let line = |fraction, whole| {
+            if fraction >= whole {
+                0.0
+            } else {
+                surroundings.line_error(fraction)
+            }
+        };
+        let variable = if surroundings.centred {
+            self.slope * line(v_bits, surroundings.input.saturating_sub(self.row.shift))
+        } else {
+            0.0
+        };
+        let rounding = line(t1, (c3 + v_bits).max(c2)) * v * v
+            + line(t2, (t1 + v_bits).max(c1)) * v
+            + line(surroundings.output, (t2 + v_bits).max(c0));
+        let ulp = (-f64::from(surroundings.output)).exp2();
+        Bound {
+            coefficient: coefficient / ulp,
+            datapath: (variable + rounding) / ulp,
+            tail: 0.0,
+        }
+    }
+}
+
+/// Half an ulp, or nothing where the format holds the value exactly.
+pub(super) fn coefficient_error(value: f64, fraction: u32) -> f64 {
+    let scaled = value * f64::from(fraction).exp2();
+    if scaled == scaled.round() {
+        0.0
+    } else {
+        0.5 * (-f64::from(fraction)).exp2()
+    }
+}

@@ -1,0 +1,148 @@
+//! Range and error analysis: from the input and output formats and an error budget to the width of
+//! every register.
+//!
+//! **What is promised.** For every row and every representable x, the pipeline differs from the same
+//! polynomial (or ratio) with real coefficients, evaluated at the same x, by at most the budget: 1
+//! output ulp unless the configuration says otherwise. Approximation (polynomial against x^n) and
+//! input quantisation are not in it; no width can mend them.
+//!
+//! **Error.** A rounding to f fraction bits is off by at most 2^−f, half of it when rounding to
+//! nearest. Going through the rest of Horner's rule it is multiplied by v once a stage, so with
+//! V = max v and S = max |f′(v)| on the row's region, the parts add up to
+//!
+//! ```text
+//! coefficients   δ3·V³ + δ2·V² + δ1·V + δ0        (δ = ½ ulp of each, 0 where the row is exact)
+//! data path      S·δv  + ρ1·V² + ρ2·V + ρ3        (ρ = ½ or 1 ulp by the mode, 0 where exact)
+//! ```
+//!
+//! and for the tail g = x/D, D = A − B·x, whose error grows towards its upper end x = cut:
+//! (δA + x·δB + ρD)·g/D + ρ of the quotient. See [`error`].
+//!
+//! **Widths.** Fraction bits start generous; bits are then taken away one at a time, each time where
+//! that saves most hardware for the error it adds, while the worst row stays within the budget
+//! ([`search`]). Integer bits follow from the ranges of the polynomial and its partial results over
+//! the region, with the ROM's own integers, widened by the rounding errors ([`range`]).
+
+pub mod error;
+mod polynomial;
+pub mod range;
+pub mod search;
+pub mod tail;
+
+use thiserror::Error;
+
+use crate::format::{FormatError, QFormat};
+
+/// What the analysis must know of the polynomial of one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowPolynomial {
+    /// n.
+    pub exponent: f64,
+    /// e: the places s is moved up to become u; 0 in the power form.
+    pub shift: u32,
+    /// c0, c1, c2, c3 of t1 = c2 ± c3·v, t2 = c1 ± t1·v, t3 = c0 ± t2·v.
+    pub coefficients: [f64; 4],
+    /// The least and the greatest v the polynomial is given.
+    pub v: (f64, f64),
+}
+
+/// What the analysis must know of the tail of one row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowTail {
+    /// n.
+    pub exponent: f64,
+    /// A.
+    pub a: f64,
+    /// B.
+    pub b: f64,
+    /// The greatest x the divider is given; 0 where the tail is empty.
+    pub greatest_x: f64,
+}
+
+/// Why no widths can be had.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BudgetError {
+    /// A register needs more than 63 bits.
+    #[error(
+        "register {register} at n = {exponent}: {source}; use fewer fraction bits or smaller exponents, or the centred form"
+    )]
+    TooWide {
+        /// The register.
+        register: &'static str,
+        /// The exponent that needs it.
+        exponent: f64,
+        /// The width.
+        source: FormatError,
+    },
+    /// A stated format does not hold what the register can take.
+    #[error("register {register}, stated as {stated}, could overflow at n = {exponent}: its values reach {low} to {high}, {stated} holds {} to {}; it needs {needed}",
+        crate::quantise::decimal(stated.min_bits(), *stated), crate::quantise::decimal(stated.max_bits(), *stated))]
+    Overflow {
+        /// The register.
+        register: &'static str,
+        /// Its stated format.
+        stated: QFormat,
+        /// The format that would hold it.
+        needed: QFormat,
+        /// The exponent whose values are out of range.
+        exponent: f64,
+        /// The least value.
+        low: f64,
+        /// The greatest value.
+        high: f64,
+    },
+    /// A stated format has too few fraction bits for its line to be exact where it must be.
+    #[error(
+        "register {register}, stated as {stated}, needs {least} fraction bits or more, so that the dividend is an integer"
+    )]
+    TooFewFractionBits {
+        /// The register.
+        register: &'static str,
+        /// Its stated format.
+        stated: QFormat,
+        /// The fewest fraction bits.
+        least: u32,
+    },
+    /// The error cannot be kept within the budget.
+    #[error(
+        "the error budget of {budget} ulp cannot be kept: {what} reach {needed:.3} ulp at n = {exponent}; raise error_budget_ulp, round to nearest, or state wider formats"
+    )]
+    NotKept {
+        /// The budget, in output ulp.
+        budget: f64,
+        /// Which widths were tried.
+        what: &'static str,
+        /// The worst row's error, in output ulp.
+        needed: f64,
+        /// The worst row.
+        exponent: f64,
+    },
+    /// A line is wider than the 127 bits of the widest lane.
+    #[error("the line of {line} needs {bits} bits, more than 127; use fewer fraction bits")]
+    LineTooWide {
+        /// The line.
+        line: &'static str,
+        /// Its width.
+        bits: u32,
+    },
+}
+
+/// The error bounds of one row, in output ulp.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Bound {
+    /// Coefficient quantisation, epicentre or whole polynomial region.
+    pub coefficient: f64,
+    /// Data-path rounding of the polynomial.
+    pub datapath: f64,
+    /// Both together, on the tail.
+    pub tail: f64,
+}
+
+impl Bound {
+    /// The greater of polynomial and tail.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        (self.coefficient + self.datapath).max(self.tail)
+    }
+}

@@ -1,0 +1,287 @@
+//! One configuration of the pipeline, as JSON.
+//!
+//! Every field but the first five has a default; unknown fields are refused. The presets
+//! ([`crate::presets`]) are such files. A configuration that parses is complete and consistent in
+//! itself ([`Config::from_json`] checks it); whether its widths can carry its values is found when
+//! the [`Design`](crate::design::Design) is made.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::exponents::Exponents;
+use crate::fit::{Levels, Method};
+use crate::format::QFormat;
+use crate::rounding::Rounding;
+
+/// The variable the polynomial is evaluated in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Form {
+    /// a·x³ + b·x² + c·x + d, as printed in \[Rom\].
+    Power,
+    /// 1 − u(k1 − u(k2 − u·k3)), u = (1 − x)·2^e, e = ⌊log2 n⌋.
+    Centred,
+}
+
+/// What answers below the cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Tail {
+    /// Zero.
+    Zero,
+    /// x / (A − B·x), by a divider.
+    Rational,
+}
+
+/// Where the polynomial stops answering.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Cut {
+    /// At q, where the highlight has fallen to Q.
+    Epicentre,
+    /// At the polynomial's minimum below q, so that a zero tail makes the least jump and the
+    /// polynomial never rises again; at 0 where it has none.
+    Minimum,
+}
+
+/// Formats stated by hand instead of derived. They are checked: a register that could overflow is
+/// refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct StatedWidths {
+    /// u, in the centred form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u: Option<QFormat>,
+    /// Coefficient of v³.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c3: Option<QFormat>,
+    /// Coefficient of v².
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c2: Option<QFormat>,
+    /// Coefficient of v.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c1: Option<QFormat>,
+    /// Constant coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c0: Option<QFormat>,
+    /// Result of stage 1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub t1: Option<QFormat>,
+    /// Result of stage 2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub t2: Option<QFormat>,
+    /// A of the tail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tail_a: Option<QFormat>,
+    /// B of the tail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tail_b: Option<QFormat>,
+    /// Divisor of the tail.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub divisor: Option<QFormat>,
+}
+
+impl StatedWidths {
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// One configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Config {
+    /// A name for files and reports.
+    pub name: String,
+    /// hermite, three_point, tangent, quadratic, or schlick.
+    pub method: Method,
+    /// The exponents of the ROM, in the order of their addresses: `1..=256`, `1,2,8,64`.
+    pub exponents: Exponents,
+    /// Format of x. Signed where x may be negative; at least one integer bit where it may reach 1.
+    pub input: QFormat,
+    /// Format of the intensity, unsigned.
+    pub output: QFormat,
+    /// One sentence for people.
+    #[serde(default)]
+    pub description: String,
+    /// Q, the level of x^n where the epicentre ends.
+    #[serde(default = "default_q")]
+    pub q: f64,
+    /// G, the lower level of three_point.
+    #[serde(default = "default_g")]
+    pub g: f64,
+    /// Power or centred form. (schlick has no polynomial and ignores it.)
+    #[serde(default = "default_form")]
+    pub form: Form,
+    /// What answers below the cut.
+    #[serde(default = "default_tail")]
+    pub tail: Tail,
+    /// Where the polynomial stops.
+    #[serde(default = "default_cut")]
+    pub cut: Cut,
+    /// The rounding of every line.
+    #[serde(default)]
+    pub rounding: Rounding,
+    /// Quotient bits the divider finds in one clock cycle, 1 to 8.
+    #[serde(default = "default_quotient_bits")]
+    pub quotient_bits_per_stage: u32,
+    /// What coefficients and data path together may add to the error, in output ulp.
+    #[serde(default = "default_budget")]
+    pub error_budget_ulp: f64,
+    /// Formats stated by hand; those not stated are derived from the budget.
+    #[serde(default, skip_serializing_if = "StatedWidths::is_empty")]
+    pub widths: StatedWidths,
+}
+
+fn default_q() -> f64 {
+    Levels::default().q()
+}
+fn default_g() -> f64 {
+    Levels::default().g()
+}
+const fn default_form() -> Form {
+    Form::Centred
+}
+const fn default_tail() -> Tail {
+    Tail::Zero
+}
+const fn default_cut() -> Cut {
+    Cut::Epicentre
+}
+const fn default_quotient_bits() -> u32 {
+    2
+}
+const fn default_budget() -> f64 {
+    1.0
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ConfigError {
+    /// Not JSON, an unknown or missing field, or a value of the wrong kind; with line and column.
+    #[error("{0}")]
+    Json(#[from] serde_json::Error),
+    /// A field whose value cannot be used.
+    #[error("field `{field}`: {problem}")]
+    Field {
+        /// The field.
+        field: &'static str,
+        /// What is wrong, and what would be right.
+        problem: String,
+    },
+}
+
+fn wrong<T>(field: &'static str, problem: impl Into<String>) -> Result<T, ConfigError> {
+    Err(ConfigError::Field {
+        field,
+        problem: problem.into(),
+    })
+}
+
+impl Config {
+    /// Parses and checks a configuration.
+    ///
+    /// # Errors
+    /// When the text is not a configuration, or a field cannot be used.
+    pub fn from_json(text: &str) -> Result<Self, ConfigError> {
+        let config: Self = serde_json::from_str(text)?;
+        config.check()?;
+        Ok(config)
+    }
+
+    /// The configuration as JSON, ready to be parsed again.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // A struct of plain fields with string keys: serialising it cannot fail.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// Q and G.
+    ///
+    /// # Errors
+    /// When not 0 < G < Q < 1.
+    pub fn levels(&self) -> Result<Levels, ConfigError> {
+        Levels::new(self.q, self.g).map_err(|error| ConfigError::Field {
+            field: "q, g",
+            problem: error.to_string(),
+        })
+    }
+
+    /// Checks what can be checked without deriving widths.
+    ///
+    /// # Errors
+    /// Names the field and what would be right.
+    pub fn check(&self) -> Result<(), ConfigError> {
+        self.levels()?;
+        let named = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+        if self.name.is_empty() || !self.name.chars().all(named) {
+            return wrong(
+                "name",
+                "use letters, digits, - and _; it becomes part of file names",
+            );
+        }
+        self.check_method()?;
+        self.check_formats()?;
+        if !(1..=8).contains(&self.quotient_bits_per_stage) {
+            return wrong("quotient_bits_per_stage", "use 1 to 8");
+        }
+        if !(self.error_budget_ulp > 0.0 && self.error_budget_ulp <= 1e6) {
+            return wrong(
+                "error_budget_ulp",
+                "use a number above 0 (1.0 is usual), at most 1e6",
+            );
+        }
+        Ok(())
+    }
+
+    fn check_method(&self) -> Result<(), ConfigError> {
+        match self.method {
+            Method::Composite => wrong(
+                "method",
+                "composite is hermite with a rational tail: say \"method\": \"hermite\", \
+                 \"tail\": \"rational\"",
+            ),
+            Method::Rational => wrong(
+                "method",
+                "rational answers on the tail only: say hermite, three_point, tangent, quadratic \
+                 or schlick, with \"tail\": \"rational\"",
+            ),
+            Method::Schlick if self.tail != Tail::Rational => {
+                wrong("tail", "schlick is a ratio: say \"tail\": \"rational\"")
+            }
+            Method::Schlick => Ok(()),
+            _ if self.tail == Tail::Rational && self.cut != Cut::Epicentre => wrong(
+                "cut",
+                "a rational tail meets the polynomial at q: say \"cut\": \"epicentre\"",
+            ),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_formats(&self) -> Result<(), ConfigError> {
+        if self.output.is_signed() {
+            return wrong(
+                "output",
+                "an intensity is not negative: use an unsigned format (UQ1.15)",
+            );
+        }
+        if self.output.fraction_bits() < 1 || self.output.integer_bits() < 0 {
+            return wrong("output", "use UQ0.n or UQ1.n with n of 1 or more");
+        }
+        let value_bits = self.input.integer_bits() - i32::from(self.input.is_signed());
+        if value_bits < 0 || self.input.fraction_bits() < 1 {
+            return wrong(
+                "input",
+                "x lies in [0, 1]: use UQ0.n, UQ1.n or Q2.n with n of 1 or more",
+            );
+        }
+        let stated_u = self.widths.u.is_some();
+        if stated_u && (self.form == Form::Power || self.method == Method::Schlick) {
+            return wrong("widths.u", "only the centred form has a u");
+        }
+        Ok(())
+    }
+}

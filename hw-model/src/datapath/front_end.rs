@@ -1,0 +1,119 @@
+//! The front end: which part answers, and the variable the polynomial is evaluated in.
+//!
+//! x clamps to [0, 1]. Against the row's cut it falls into a region:
+//!
+//! | region       | when                                        | intensity             |
+//! |--------------|---------------------------------------------|-----------------------|
+//! | `polynomial` | x ≥ cut                                     | the three stages      |
+//! | `tail`       | 0 ≤ x < cut, configuration keeps a divider  | the divider           |
+//! | `zero`       | 0 ≤ x < cut without one; x < 0; no ROM word | 0                     |
+//!
+//! A part that does not answer is fed a harmless x, so that what was proved about the ranges of its
+//! registers holds for every input: the polynomial gets x = 1, which every row's region contains, and
+//! the divider x = 0.
+//!
+//! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1;
+//! it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
+
+use crate::rounding::{Lane, Rounding, round_shift};
+
+/// The part of the pipeline that answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[repr(u8)]
+pub enum Region {
+    /// The intensity is zero: facing away, below the cut without a tail, or no ROM word.
+    #[default]
+    Zero = 0,
+    /// The polynomial answers.
+    Polynomial = 1,
+    /// The divider answers.
+    Tail = 2,
+}
+
+impl Region {
+    /// The name used in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Zero => "zero",
+            Self::Polynomial => "polynomial",
+            Self::Tail => "tail",
+        }
+    }
+}
+
+/// The two variables a polynomial can be evaluated in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variable {
+    /// v = x: the power form.
+    X,
+    /// v = u = (1 − x)·2^e: the centred form.
+    U {
+        /// Places s is moved up, beyond e, to meet u's fraction bits.
+        up: u32,
+        /// Fraction bits dropped from s·2^e.
+        drop: u32,
+        /// How they are dropped.
+        rounding: Rounding,
+    },
+}
+
+/// The front end of one configuration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FrontEnd {
+    /// 1 in the input's unit, or the greatest x of an input format that does not reach 1.
+    pub greatest: i64,
+    /// 1 in the input's unit.
+    pub one: i64,
+    /// The polynomial's variable; none where the divider answers everywhere.
+    pub variable: Option<Variable>,
+    /// True when the configuration keeps a divider.
+    pub tail: bool,
+}
+
+impl FrontEnd {
+    /// x clamped to [0, 1].
+    #[inline]
+    pub fn clamp_input<L: Lane>(&self, x: L) -> L {
+        x.max(L::ZERO).min(L::from_bits(self.greatest))
+    }
+
+    /// The region of x (not clamped: its sign matters) in a row with this cut.
+    #[inline]
+    pub fn region<L: Lane>(&self, x: L, cut: L) -> Region {
+        if x < L::ZERO {
+            Region::Zero
+        } else if self.variable.is_some() && x >= cut {
+            Region::Polynomial
+        } else if self.tail {
+            Region::Tail
+        } else {
+            Region::Zero
+        }
+    }
+
+    /// The polynomial's variable for a clamped x: x itself, or u = (1 − x)·2^shift. Where the
+    /// polynomial does not answer, its value at x = `greatest`.
+    #[inline]
+    pub fn variable<L: Lane>(&self, x: L, region: Region, shift: u32) -> L {
+        let greatest = L::from_bits(self.greatest);
+        let x = if region == Region::Polynomial {
+            x
+        } else {
+            greatest
+        };
+        match self.variable {
+            None => L::ZERO,
+            Some(Variable::X) => x,
+            Some(Variable::U { up, drop, rounding }) => {
+                round_shift((L::from_bits(self.one) - x) << (shift + up), drop, rounding)
+            }
+        }
+    }
+
+    /// The divider's x: a clamped x where the tail answers, 0 elsewhere.
+    #[inline]
+    pub fn tail_x<L: Lane>(&self, x: L, region: Region) -> L {
+        if region == Region::Tail { x } else { L::ZERO }
+    }
+}

@@ -1,0 +1,26 @@
+//! The data path, bit for bit: integers only.
+//!
+//! ```text
+//! (address, x) → ROM word ─┬→ front_end → stage 1 → stage 2 → stage 3 ─┬→ clamp → intensity
+//!                          └→ tail: divisor, quotient digits ──────────┘
+//! ```
+//!
+//! Each file holds the arithmetic of one part, once, as small pure functions over a
+//! [`Lane`](crate::rounding::Lane). [`Datapath`] joins them into ranks of registers; the clocked
+//! simulator, the vectors and the reports all go through it.
+//!
+//! There is no floating point here, and no arithmetic outside the lanes: overflow cannot happen
+//! because the width analysis ([`crate::budget`]) sized every line.
+#![deny(clippy::float_arithmetic)]
+
+mod block;
+pub mod clamp;
+pub mod front_end;
+pub mod ranks;
+pub mod signals;
+pub mod stage;
+pub mod tail;
+
+pub use block::Block;
+pub use ranks::Datapath;
+pub use signals::{Register, Signals, Status};

@@ -1,0 +1,447 @@
+//! The ranks of registers, and the logic between them.
+//!
+//! Rank 0 (`fetch`) takes the input and the ROM word; rank 1 (`front_end`) the region and the
+//! variable; the middle ranks hold the three stages on one side and the divider on the other, whose
+//! results wait for each other; the last (`clamp`) the intensity and the status. The number of ranks is the latency.
+//!
+//! | rank     | polynomial       | tail                     |
+//! |----------|------------------|--------------------------|
+//! | 2        | stage 1: t1      | divisor, first remainder |
+//! | 3        | stage 2: t2      | quotient bits            |
+//! | 4        | stage 3: t3      | quotient bits            |
+//! | 5 …      | t3 waits         | quotient bits            |
+
+use crate::format::QFormat;
+use crate::rom::{FieldName, Place, Rom, Row};
+use crate::rounding::Lane;
+
+use super::clamp::clamp;
+use super::front_end::{FrontEnd, Region};
+use super::signals::{Register, Signals, Status};
+use super::stage::MultiplyAdd;
+use super::tail::{Divider, Division};
+
+/// Ranks before the middle: fetch and front end.
+const HEAD_RANKS: usize = 2;
+/// Multiply-add stages of the polynomial.
+const STAGES: usize = 3;
+
+/// The formats of the polynomial's registers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PolynomialFormats {
+    /// The variable, x or u.
+    pub v: QFormat,
+    /// c3, c2, c1, c0.
+    pub coefficients: [QFormat; 4],
+    /// After stage 1.
+    pub t1: QFormat,
+    /// After stage 2.
+    pub t2: QFormat,
+    /// After stage 3, in the output's unit.
+    pub t3: QFormat,
+}
+
+/// The formats of the divider's registers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TailFormats {
+    /// A.
+    pub a: QFormat,
+    /// B.
+    pub b: QFormat,
+    /// D = A − B·x, and every remainder.
+    pub divisor: QFormat,
+    /// Quotient bits and dividend bits to come.
+    pub digits: QFormat,
+}
+
+/// The formats of every register.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Formats {
+    /// x.
+    pub input: QFormat,
+    /// The intensity.
+    pub output: QFormat,
+    /// The polynomial's, where there is one.
+    pub polynomial: Option<PolynomialFormats>,
+    /// The divider's, where there is one.
+    pub tail: Option<TailFormats>,
+    /// The cut, where there is a polynomial.
+    pub cut: Option<QFormat>,
+    /// e, in the centred form.
+    pub shift: Option<QFormat>,
+}
+
+/// The data path of one configuration: every line with its alignment, and the ROM.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Datapath {
+    pub(crate) rom: Rom,
+    pub(crate) formats: Formats,
+    pub(crate) front_end: FrontEnd,
+    pub(crate) stages: Option<[MultiplyAdd; STAGES]>,
+    pub(crate) divider: Option<Divider>,
+    /// 1 in the output's unit, or the greatest intensity of a format that does not reach 1.
+    pub(crate) output_one: i64,
+    /// True when every line fits an `i64`.
+    pub(crate) narrow: bool,
+}
+
+impl Datapath {
+    /// The ROM.
+    #[must_use]
+    pub const fn rom(&self) -> &Rom {
+        &self.rom
+    }
+
+    /// The formats of every register.
+    #[must_use]
+    pub const fn formats(&self) -> &Formats {
+        &self.formats
+    }
+
+    /// The front end's constants.
+    #[must_use]
+    pub const fn front_end(&self) -> &FrontEnd {
+        &self.front_end
+    }
+
+    /// The three multiply-add lines, where there is a polynomial.
+    #[must_use]
+    pub const fn stages(&self) -> Option<&[MultiplyAdd; STAGES]> {
+        self.stages.as_ref()
+    }
+
+    /// The divider, where there is one.
+    #[must_use]
+    pub const fn divider(&self) -> Option<&Divider> {
+        self.divider.as_ref()
+    }
+
+    /// The greatest intensity: 1, or the output format's greatest value where it does not reach 1.
+    #[must_use]
+    pub const fn output_one(&self) -> i64 {
+        self.output_one
+    }
+
+    /// Number of ranks of registers, which is the latency in clock cycles.
+    #[must_use]
+    pub fn rank_count(&self) -> usize {
+        HEAD_RANKS + self.middle_ranks() + 1
+    }
+
+    fn middle_ranks(&self) -> usize {
+        let polynomial = if self.stages.is_some() { STAGES } else { 0 };
+        let tail = self
+            .divider
+            .map_or(0, |divider| 1 + divider.digit_stages() as usize);
+        polynomial.max(tail)
+    }
+
+    /// The name of a rank, as in traces and waves.
+    #[must_use]
+    pub fn rank_name(&self, rank: usize) -> String {
+        match rank {
+            0 => "fetch".to_owned(),
+            1 => "front_end".to_owned(),
+            _ if rank + 1 == self.rank_count() => "clamp".to_owned(),
+            _ if rank < HEAD_RANKS + STAGES && self.stages.is_some() => {
+                format!("stage{}", rank + 1 - HEAD_RANKS)
+            }
+            _ => format!("tail{}", rank - HEAD_RANKS),
+        }
+    }
+
+    /// What rank 0 takes in: address, x, and the ROM word.
+    #[inline]
+    #[must_use]
+    pub fn fetch(&self, address: u32, x: i64) -> Signals {
+        let row = self.rom.row(address);
+        Signals {
+            address,
+            x,
+            row: row.copied().unwrap_or_default(),
+            status: Status::default().with(Status::NO_WORD, row.is_none()),
+            ..Signals::default()
+        }
+    }
+
+    /// What `rank` (1 and up) takes in when the rank before it holds `before`.
+    #[must_use]
+    pub fn advance(&self, rank: usize, before: &Signals) -> Signals {
+        if self.narrow {
+            self.advance_in::<i64>(rank, before)
+        } else {
+            self.advance_in::<i128>(rank, before)
+        }
+    }
+
+    fn advance_in<L: Lane>(&self, rank: usize, before: &Signals) -> Signals {
+        if rank == 1 {
+            self.front_end_rank::<L>(before)
+        } else if rank + 1 == self.rank_count() {
+            self.clamp_rank::<L>(before)
+        } else {
+            let mut after = *before;
+            self.polynomial_rank::<L>(rank - HEAD_RANKS, &mut after);
+            self.tail_rank::<L>(rank - HEAD_RANKS, &mut after);
+            after
+        }
+    }
+
+    #[inline]
+    fn front_end_rank<L: Lane>(&self, before: &Signals) -> Signals {
+        let given = L::from_bits(before.x);
+        let x = self.front_end.clamp_input(given);
+        let region = if before.status.contains(Status::NO_WORD) {
+            Region::Zero
+        } else {
+            self.front_end
+                .region(given, L::from_bits(before.row.get(FieldName::Cut)))
+        };
+        Signals {
+            x: x.to_bits(),
+            region,
+            status: before
+                .status
+                .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
+                .with(Status::FACING_AWAY, given < L::ZERO),
+            v: self
+                .front_end
+                .variable(x, region, before.row.shift())
+                .to_bits(),
+            tail_x: self.front_end.tail_x(x, region).to_bits(),
+            ..*before
+        }
+    }
+
+    #[inline]
+    fn polynomial_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
+        let Some(stages) = &self.stages else { return };
+        let Some(stage) = stages.get(index) else {
+            return;
+        };
+        let row = &signals.row;
+        let (multiplicand, addend) = match index {
+            0 => (row.get(FieldName::C3), row.get(FieldName::C2)),
+            1 => (signals.t1, row.get(FieldName::C1)),
+            _ => (signals.t2, row.get(FieldName::C0)),
+        };
+        let lane = L::from_bits;
+        let t = stage
+            .apply(lane(multiplicand), lane(signals.v), lane(addend))
+            .to_bits();
+        match index {
+            0 => signals.t1 = t,
+            1 => signals.t2 = t,
+            _ => signals.t3 = t,
+        }
+    }
+
+    #[inline]
+    fn tail_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
+        let Some(divider) = &self.divider else { return };
+        let row = &signals.row;
+        let division = if index == 0 {
+            let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
+            divider.begin(
+                L::from_bits(signals.tail_x),
+                L::from_bits(a),
+                L::from_bits(b),
+            )
+        } else {
+            divider.digit_stage(index as u32 - 1, widen::<L>(signals.division))
+        };
+        signals.division = narrow(division);
+    }
+
+    #[inline]
+    fn clamp_rank<L: Lane>(&self, before: &Signals) -> Signals {
+        let one = L::from_bits(self.output_one);
+        let mut after = *before;
+        after.intensity = match before.region {
+            Region::Zero => 0,
+            Region::Polynomial => {
+                let intensity = clamp(L::from_bits(before.t3), one).to_bits();
+                after.status = before.status.with(Status::CLAMPED, intensity != before.t3);
+                intensity
+            }
+            // A tail answers only where there is a divider.
+            Region::Tail => self.divider.map_or(0, |divider| {
+                divider.finish(widen::<L>(before.division), one).to_bits()
+            }),
+        };
+        after
+    }
+
+    /// The contents of every rank, first to last, as (address, x) passes through on its own.
+    #[must_use]
+    pub fn passage(&self, address: u32, x: i64) -> Vec<Signals> {
+        let mut held = self.fetch(address, x);
+        let mut ranks = vec![held];
+        for rank in 1..self.rank_count() {
+            held = self.advance(rank, &held);
+            ranks.push(held);
+        }
+        ranks
+    }
+
+    /// What the last rank holds for (address, x): the intensity, the status, and every value computed on the way.
+    #[must_use]
+    pub fn evaluate(&self, address: u32, x: i64) -> Signals {
+        (1..self.rank_count()).fold(self.fetch(address, x), |held, rank| {
+            self.advance(rank, &held)
+        })
+    }
+
+    /// The registers of a rank, in the order of traces and vectors. Constants take none.
+    #[must_use]
+    pub fn registers(&self, rank: usize) -> Vec<Register> {
+        let last = self.rank_count() - 1;
+        let mut list = List {
+            registers: Vec::new(),
+        };
+        if rank == last {
+            list.add("intensity", self.formats.output, true, |s| s.intensity);
+        } else {
+            self.input_registers(rank, &mut list);
+            if let Some(formats) = &self.formats.polynomial {
+                self.polynomial_registers(rank, formats, &mut list);
+            }
+            if let Some(formats) = &self.formats.tail {
+                self.tail_registers(rank, formats, &mut list);
+            }
+            if rank >= 1 {
+                list.add("region", QFormat::field(2), rank == 1, |s| s.region as i64);
+            }
+        }
+        let computed = rank <= 1 || rank == last;
+        list.add("status", QFormat::field(Status::WIDTH), computed, |s| {
+            s.status.bits().into()
+        });
+        list.registers
+    }
+
+    fn input_registers(&self, rank: usize, list: &mut List) {
+        if rank == 0 {
+            let address = QFormat::field(self.rom.address_width());
+            list.add("address", address, true, |s| s.address.into());
+            list.add("x", self.formats.input, true, |s| s.x);
+            self.field(list, FieldName::Cut, true, |s| s.row.get(FieldName::Cut));
+            self.field(list, FieldName::Shift, true, |s| {
+                s.row.get(FieldName::Shift)
+            });
+        }
+    }
+
+    fn polynomial_registers(&self, rank: usize, formats: &PolynomialFormats, list: &mut List) {
+        let computed = rank == 0;
+        // c3 and c2 meet in stage 1, c1 in stage 2, c0 in stage 3.
+        if rank < HEAD_RANKS {
+            self.field(list, FieldName::C3, computed, |s| s.row.get(FieldName::C3));
+            self.field(list, FieldName::C2, computed, |s| s.row.get(FieldName::C2));
+        }
+        if rank < HEAD_RANKS + 1 {
+            self.field(list, FieldName::C1, computed, |s| s.row.get(FieldName::C1));
+        }
+        if rank < HEAD_RANKS + 2 {
+            self.field(list, FieldName::C0, computed, |s| s.row.get(FieldName::C0));
+        }
+        match rank {
+            0 => {}
+            1 => list.add("v", formats.v, true, |s| s.v),
+            2 => {
+                list.add("v", formats.v, false, |s| s.v);
+                list.add("t1", formats.t1, true, |s| s.t1);
+            }
+            3 => {
+                list.add("v", formats.v, false, |s| s.v);
+                list.add("t2", formats.t2, true, |s| s.t2);
+            }
+            _ => list.add("t3", formats.t3, rank == 4, |s| s.t3),
+        }
+    }
+
+    fn tail_registers(&self, rank: usize, formats: &TailFormats, list: &mut List) {
+        if rank < HEAD_RANKS {
+            self.field(list, FieldName::TailA, rank == 0, |s| {
+                s.row.get(FieldName::TailA)
+            });
+            self.field(list, FieldName::TailB, rank == 0, |s| {
+                s.row.get(FieldName::TailB)
+            });
+        }
+        if rank == 1 {
+            list.add("tail_x", self.tail_x_format(), true, |s| s.tail_x);
+        }
+        if rank >= HEAD_RANKS {
+            let steps = self
+                .divider
+                .map_or(0, |divider| divider.digit_stages() as usize);
+            let working = rank <= HEAD_RANKS + steps;
+            list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| {
+                s.division.divisor
+            });
+            list.add("remainder", formats.divisor, working, |s| {
+                s.division.remainder
+            });
+            list.add("digits", formats.digits, working, |s| s.division.digits);
+        }
+    }
+
+    /// The divider's x is clamped to [0, 1], so a sign bit of the input is not carried.
+    fn tail_x_format(&self) -> QFormat {
+        let fraction = self.formats.input.fraction_bits();
+        QFormat::for_range(0, self.front_end.greatest.into(), fraction)
+            .unwrap_or(self.formats.input)
+    }
+
+    fn field(&self, list: &mut List, name: FieldName, computed: bool, bits: fn(&Signals) -> i64) {
+        if let Some(field) = self.rom.layout().field(name)
+            && matches!(field.place, Place::Stored { .. })
+        {
+            list.add(name.name(), field.format, computed, bits);
+        }
+    }
+
+    /// The row at an address, or the all-zero row that a missing word reads as.
+    #[must_use]
+    pub fn row(&self, address: u32) -> Row {
+        self.rom.row(address).copied().unwrap_or_default()
+    }
+}
+
+struct List {
+    registers: Vec<Register>,
+}
+
+impl List {
+    fn add(
+        &mut self,
+        name: &'static str,
+        format: QFormat,
+        computed: bool,
+        bits: fn(&Signals) -> i64,
+    ) {
+        self.registers.push(Register {
+            name,
+            format,
+            computed,
+            bits,
+        });
+    }
+}
+
+fn widen<L: Lane>(division: Division<i64>) -> Division<L> {
+    Division {
+        divisor: L::from_bits(division.divisor),
+        remainder: L::from_bits(division.remainder),
+        digits: L::from_bits(division.digits),
+    }
+}
+
+fn narrow<L: Lane>(division: Division<L>) -> Division<i64> {
+    Division {
+        divisor: division.divisor.to_bits(),
+        remainder: division.remainder.to_bits(),
+        digits: division.digits.to_bits(),
+    }
+}

@@ -1,0 +1,116 @@
+//! What the ranks of registers hold.
+
+use std::fmt;
+
+use crate::format::QFormat;
+use crate::rom::Row;
+
+use super::front_end::Region;
+use super::tail::Division;
+
+/// Status flags that travel with a result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Status(u8);
+
+impl Status {
+    /// The address has no ROM word; the intensity is 0.
+    pub const NO_WORD: Self = Self(1);
+    /// x was above 1 and was taken as 1.
+    pub const ABOVE_ONE: Self = Self(2);
+    /// x was negative; the intensity is 0.
+    pub const FACING_AWAY: Self = Self(4);
+    /// The polynomial left [0, 1] and was clamped.
+    pub const CLAMPED: Self = Self(8);
+    /// Bits of the status port.
+    pub const WIDTH: u32 = 4;
+    /// Every flag with its name, from bit 0 up.
+    pub const NAMES: [(Self, &'static str); 4] = [
+        (Self::NO_WORD, "no_word"),
+        (Self::ABOVE_ONE, "above_one"),
+        (Self::FACING_AWAY, "facing_away"),
+        (Self::CLAMPED, "clamped"),
+    ];
+
+    /// The flags as the status port shows them.
+    #[must_use]
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// True when every flag of `other` is set.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// These flags, and `other` where `condition` holds.
+    #[inline]
+    #[must_use]
+    pub const fn with(self, other: Self, condition: bool) -> Self {
+        Self(self.0 | if condition { other.0 } else { 0 })
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<&str> = Self::NAMES
+            .iter()
+            .filter(|(flag, _)| self.contains(*flag))
+            .map(|&(_, name)| name)
+            .collect();
+        f.pad(&if names.is_empty() {
+            "-".to_owned()
+        } else {
+            names.join("+")
+        })
+    }
+}
+
+/// Everything a rank of registers can hold. Which of it a rank *does* hold (and so costs flip-flops)
+/// is said by [`super::Datapath::registers`]; the rest keeps the value of an earlier rank.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Signals {
+    /// ROM address as given.
+    pub address: u32,
+    /// x: as given in the first rank, clamped to [0, 1] from the front end on.
+    pub x: i64,
+    /// The row at the address; all zero where there is none.
+    pub row: Row,
+    /// Flags raised so far.
+    pub status: Status,
+    /// The part that answers.
+    pub region: Region,
+    /// The polynomial's variable, x or u.
+    pub v: i64,
+    /// c2 ± c3·v.
+    pub t1: i64,
+    /// c1 ± t1·v.
+    pub t2: i64,
+    /// c0 ± t2·v, in the output's unit.
+    pub t3: i64,
+    /// The divider's x: x where the tail answers, else 0.
+    pub tail_x: i64,
+    /// The division under way.
+    pub division: Division<i64>,
+    /// The result.
+    pub intensity: i64,
+}
+
+/// One register of a rank.
+#[derive(Clone, Copy)]
+pub struct Register {
+    /// Its name in traces, waves, vectors and RTL.
+    pub name: &'static str,
+    /// Its format.
+    pub format: QFormat,
+    /// True in the rank that computes the value, false where it is only carried along.
+    pub computed: bool,
+    /// Reads its bits.
+    pub bits: fn(&Signals) -> i64,
+}
+
+impl fmt::Debug for Register {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.name, self.format)
+    }
+}

@@ -1,0 +1,174 @@
+//! From a configuration to hardware: real rows, widths, ROM, data path.
+//!
+//! ```text
+//! Config → real rows (fit) → fraction bits (budget) → ROM integers (quantise) → ranges → formats → Datapath
+//! ```
+
+mod polynomial;
+mod real_row;
+mod tail;
+
+use thiserror::Error;
+
+use crate::budget::{Bound, BudgetError};
+use crate::config::{Config, ConfigError, Form};
+use crate::datapath::Datapath;
+use crate::datapath::front_end::FrontEnd;
+use crate::datapath::ranks::Formats;
+use crate::fit::FitError;
+use crate::format::QFormat;
+use crate::quantise::QuantiseError;
+use crate::rom::{FieldName, Rom, Row};
+
+pub use real_row::RealRow;
+
+/// Why a configuration gives no hardware.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DesignError {
+    /// The configuration itself.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Its exponents.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// Its widths.
+    #[error(transparent)]
+    Budget(#[from] BudgetError),
+    /// A ROM field.
+    #[error("ROM field {field} at n = {exponent}: {source}")]
+    Quantise {
+        /// The field.
+        field: &'static str,
+        /// The exponent.
+        exponent: f64,
+        /// What is wrong.
+        source: QuantiseError,
+    },
+}
+
+/// A configuration with everything that follows from it.
+#[derive(Debug, Clone)]
+pub struct Design {
+    config: Config,
+    rows: Vec<RealRow>,
+    bounds: Vec<Bound>,
+    datapath: Datapath,
+}
+
+impl Design {
+    /// Derives rows, widths, ROM and data path.
+    ///
+    /// # Errors
+    /// When the configuration is inconsistent, a register could overflow or would need more than 63
+    /// bits, or the error budget cannot be kept.
+    pub fn new(config: Config) -> Result<Self, DesignError> {
+        config.check()?;
+        let levels = config.levels()?;
+        let rows: Vec<RealRow> = config
+            .exponents
+            .iter()
+            .map(|exponent| RealRow::new(&config, levels, exponent))
+            .collect::<Result<_, _>>()?;
+        let mut parts = Parts::new(&config, &rows);
+        let polynomial = polynomial::derive(&config, &rows, &mut parts)?;
+        let divider = tail::derive(&config, &rows, &mut parts)?;
+        let narrow = parts.lane_bits.iter().all(|&(_, bits)| bits <= 63);
+        if let Some(&(line, bits)) = parts.lane_bits.iter().find(|(_, bits)| *bits > 127) {
+            return Err(BudgetError::LineTooWide { line, bits }.into());
+        }
+        let datapath = Datapath {
+            rom: Rom::new(config.exponents.clone(), parts.rom_rows, &parts.fields),
+            formats: parts.formats,
+            front_end: FrontEnd {
+                greatest: config.input.max_bits().min(config.input.one()),
+                one: config.input.one(),
+                variable: polynomial.as_ref().map(|(variable, _)| *variable),
+                tail: divider.is_some(),
+            },
+            stages: polynomial.map(|(_, stages)| stages),
+            divider,
+            output_one: config.output.max_bits().min(config.output.one()),
+            narrow,
+        };
+        Ok(Self {
+            config,
+            rows,
+            bounds: parts.bounds,
+            datapath,
+        })
+    }
+
+    /// The configuration.
+    #[must_use]
+    pub const fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The real functions behind each ROM row, in the order of the addresses.
+    #[must_use]
+    pub fn rows(&self) -> &[RealRow] {
+        &self.rows
+    }
+
+    /// The proved error bound of each row, in output ulp.
+    #[must_use]
+    pub fn bounds(&self) -> &[Bound] {
+        &self.bounds
+    }
+
+    /// The data path.
+    #[must_use]
+    pub const fn datapath(&self) -> &Datapath {
+        &self.datapath
+    }
+
+    /// The ROM.
+    #[must_use]
+    pub const fn rom(&self) -> &Rom {
+        self.datapath.rom()
+    }
+
+    /// True where the polynomial is evaluated in u = (1 − x)·2^e.
+    #[must_use]
+    pub fn is_centred(&self) -> bool {
+        self.config.form == Form::Centred
+    }
+}
+
+/// What the derivation of the polynomial and of the tail add to.
+struct Parts {
+    rom_rows: Vec<Row>,
+    fields: Vec<(FieldName, QFormat)>,
+    formats: Formats,
+    bounds: Vec<Bound>,
+    /// Every line with the bits it needs.
+    lane_bits: Vec<(&'static str, u32)>,
+}
+
+impl Parts {
+    fn new(config: &Config, rows: &[RealRow]) -> Self {
+        Self {
+            rom_rows: vec![Row::default(); rows.len()],
+            fields: Vec::new(),
+            formats: Formats {
+                input: config.input,
+                output: config.output,
+                polynomial: None,
+                tail: None,
+                cut: None,
+                shift: None,
+            },
+            bounds: vec![Bound::default(); rows.len()],
+            lane_bits: Vec::new(),
+        }
+    }
+
+    /// Adds a field whose bits are given for each row.
+    fn add_field(&mut self, name: FieldName, format: QFormat, bits: impl Iterator<Item = i64>) {
+        self.fields.push((name, format));
+        for (row, bits) in self.rom_rows.iter_mut().zip(bits) {
+            row.set(name, bits);
+        }
+    }
+}

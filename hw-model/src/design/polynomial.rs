@@ -1,0 +1,270 @@
+//! Widths, ROM fields and lines of the polynomial.
+
+use super::{DesignError, Parts, RealRow};
+use crate::budget::RowPolynomial;
+use crate::budget::error::{FractionBits, Register, Sensitivity, Surroundings};
+use crate::budget::range::{Carried, Range, ranges};
+use crate::budget::search::Search;
+use crate::config::{Config, Form};
+use crate::datapath::front_end::Variable;
+use crate::datapath::ranks::PolynomialFormats;
+use crate::datapath::stage::{Fractions, MultiplyAdd};
+use crate::fit::Method;
+use crate::format::{Overflow, QFormat};
+use crate::quantise::{quantise, real, round_scaled};
+use crate::rom::FieldName;
+use crate::rounding::Rounding;
+
+/// Coefficients are constants of the design: they are rounded to the nearest whatever the lines do.
+const COEFFICIENT_ROUNDING: Rounding = Rounding::NearestEven;
+
+/// c0, c1, c2, c3 with the registers and ROM fields they live in.
+const COEFFICIENTS: [(Register, FieldName); 4] = [
+    (Register::C0, FieldName::C0),
+    (Register::C1, FieldName::C1),
+    (Register::C2, FieldName::C2),
+    (Register::C3, FieldName::C3),
+];
+
+pub(super) fn derive(
+    config: &Config,
+    rows: &[RealRow],
+    parts: &mut Parts,
+) -> Result<Option<(Variable, [MultiplyAdd; 3])>, DesignError> {
+    if config.method == Method::Schlick {
+        return Ok(None);
+    }
+    let real_rows: Vec<RowPolynomial> = rows
+        .iter()
+        .filter_map(|row| row_polynomial(config, row))
+        .collect();
+    let surroundings = surroundings(config);
+    let sensitivities: Vec<Sensitivity> = real_rows
+        .iter()
+        .map(|row| Sensitivity::of(*row, &surroundings))
+        .collect();
+    let search = Search {
+        sensitivities: &sensitivities,
+        surroundings,
+        pinned: Register::ALL.map(|register| stated(config, register).map(QFormat::fraction_bits)),
+        budget: config.error_budget_ulp,
+    };
+    let bits = search.run()?;
+    for (bound, of_row) in parts.bounds.iter_mut().zip(search.bounds(&bits)) {
+        bound.coefficient = of_row.coefficient;
+        bound.datapath = of_row.datapath;
+    }
+    let (coefficients, rom_rows) = quantise_rows(config, &real_rows, &bits, parts)?;
+    let formats = line_formats(config, &rom_rows, coefficients, &bits)?;
+    front_end_fields(config, rows, parts)?;
+    parts.formats.polynomial = Some(formats);
+    Ok(Some(lines(config, &formats, parts)))
+}
+
+/// What surrounds the polynomial: input, output, form and rounding.
+pub(super) fn surroundings(config: &Config) -> Surroundings {
+    Surroundings {
+        input: config.input.fraction_bits(),
+        output: config.output.fraction_bits(),
+        centred: config.form == Form::Centred,
+        rounding: config.rounding,
+    }
+}
+
+fn stated(config: &Config, register: Register) -> Option<QFormat> {
+    match register {
+        // x in the power form is the input as it comes.
+        Register::V if config.form == Form::Power => Some(config.input),
+        Register::V => config.widths.u,
+        Register::C3 => config.widths.c3,
+        Register::C2 => config.widths.c2,
+        Register::C1 => config.widths.c1,
+        Register::C0 => config.widths.c0,
+        Register::T1 => config.widths.t1,
+        Register::T2 => config.widths.t2,
+    }
+}
+
+/// The row in the variable of the form. In the centred form u = s·2^e, so k_i becomes k_i·2^−ie
+/// (exact in binary floating point), and the region reaches from 1 to the cut.
+fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
+    let cubic = row.polynomial.as_ref()?;
+    let (one, ulp) = (config.input.one(), config.input.ulp());
+    let greatest = config.input.max_bits().min(one);
+    let lowest = row.cut.min(greatest);
+    let in_u = |s: i64| s as f64 * ulp * f64::from(row.shift).exp2();
+    let (coefficients, v) = match config.form {
+        Form::Power => {
+            let power = &cubic.power;
+            let v = (lowest as f64 * ulp, greatest as f64 * ulp);
+            ([power.d, power.c, power.b, power.a], v)
+        }
+        Form::Centred => {
+            let scale = |power: u32| (-f64::from(power * row.shift)).exp2();
+            let k = &cubic.centred;
+            let v = (in_u(one - greatest), in_u(one - lowest));
+            ([1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)], v)
+        }
+    };
+    Some(RowPolynomial {
+        exponent: row.exponent,
+        shift: row.shift,
+        coefficients,
+        v,
+    })
+}
+
+/// Quantises every coefficient, adds the ROM fields, and returns the rows as the ROM has them.
+fn quantise_rows(
+    config: &Config,
+    rows: &[RowPolynomial],
+    bits: &FractionBits,
+    parts: &mut Parts,
+) -> Result<([QFormat; 4], Vec<RowPolynomial>), DesignError> {
+    let mut rom_rows = rows.to_vec();
+    let mut formats = Vec::new();
+    // c3 first: the packing order of the ROM word.
+    for (index, (register, field)) in COEFFICIENTS.into_iter().enumerate().rev() {
+        let fraction = bits[register as usize];
+        let refuse = |exponent: f64| {
+            move |source| DesignError::Quantise {
+                field: field.name(),
+                exponent,
+                source,
+            }
+        };
+        let mut range = Range::zero();
+        for row in rows {
+            let scaled = round_scaled(row.coefficients[index], fraction, COEFFICIENT_ROUNDING)
+                .map_err(refuse(row.exponent))?;
+            let value = scaled as f64 * (-f64::from(fraction)).exp2();
+            range = range.with((value, value), row.exponent);
+        }
+        let format = range.format(field.name(), fraction, stated(config, register))?;
+        let mut integers = Vec::with_capacity(rows.len());
+        for (row, rom_row) in rows.iter().zip(&mut rom_rows) {
+            let integer = quantise(
+                row.coefficients[index],
+                format,
+                COEFFICIENT_ROUNDING,
+                Overflow::Refuse,
+            )
+            .map_err(refuse(row.exponent))?;
+            rom_row.coefficients[index] = real(integer, format);
+            integers.push(integer);
+        }
+        parts.add_field(field, format, integers.into_iter());
+        formats.insert(0, format);
+    }
+    let formats = std::array::from_fn(|index| formats[index]);
+    Ok((formats, rom_rows))
+}
+
+fn line_formats(
+    config: &Config,
+    rom_rows: &[RowPolynomial],
+    coefficients: [QFormat; 4],
+    bits: &FractionBits,
+) -> Result<PolynomialFormats, DesignError> {
+    let of = |register: Register| bits[register as usize];
+    let surroundings = surroundings(config);
+    let lines = [of(Register::T1), of(Register::T2), surroundings.output];
+    let carried = Carried {
+        v: if surroundings.centred {
+            surroundings.line_error(of(Register::V))
+        } else {
+            0.0
+        },
+        lines: lines.map(|fraction| surroundings.line_error(fraction)),
+    };
+    let [v, t1, t2, t3] = ranges(rom_rows, surroundings.centred, &carried);
+    let v_stated = if surroundings.centred {
+        config.widths.u
+    } else {
+        None
+    };
+    Ok(PolynomialFormats {
+        v: v.format(
+            if surroundings.centred { "u" } else { "x" },
+            of(Register::V),
+            v_stated,
+        )?,
+        coefficients,
+        t1: t1.format("t1", lines[0], config.widths.t1)?,
+        t2: t2.format("t2", lines[1], config.widths.t2)?,
+        t3: t3.format("t3", lines[2], None)?,
+    })
+}
+
+/// The cut of every row, and the shift in the centred form.
+fn front_end_fields(
+    config: &Config,
+    rows: &[RealRow],
+    parts: &mut Parts,
+) -> Result<(), DesignError> {
+    let greatest = |of: fn(&RealRow) -> i64| rows.iter().map(of).max().unwrap_or(0);
+    let integer_format = |register, greatest: i64, fraction| {
+        Range::zero()
+            .with(
+                (0.0, greatest as f64 * (-f64::from(fraction)).exp2()),
+                f64::NAN,
+            )
+            .format(register, fraction, None)
+    };
+    let fraction = config.input.fraction_bits();
+    let cut = integer_format("cut", greatest(|row| row.cut), fraction)?;
+    parts.add_field(FieldName::Cut, cut, rows.iter().map(|row| row.cut));
+    parts.formats.cut = Some(cut);
+    if config.form == Form::Centred {
+        let shift = integer_format("shift", greatest(|row| row.shift.into()), 0)?;
+        parts.add_field(
+            FieldName::Shift,
+            shift,
+            rows.iter().map(|row| row.shift.into()),
+        );
+        parts.formats.shift = Some(shift);
+    }
+    Ok(())
+}
+
+/// The variable and the three multiply-add lines, and the lanes they need.
+fn lines(
+    config: &Config,
+    formats: &PolynomialFormats,
+    parts: &mut Parts,
+) -> (Variable, [MultiplyAdd; 3]) {
+    let (v, input) = (formats.v.fraction_bits(), config.input.fraction_bits());
+    let variable = match config.form {
+        Form::Power => Variable::X,
+        Form::Centred => Variable::U {
+            up: v.saturating_sub(input),
+            drop: input.saturating_sub(v),
+            rounding: config.rounding,
+        },
+    };
+    // s·2^e before its rounding has the bits of u and those dropped; one more for the carry.
+    let before_rounding = formats.v.width() + input.saturating_sub(v) + 2;
+    parts.lane_bits.push((
+        "the front end",
+        before_rounding.max(config.input.width() + 1),
+    ));
+    let [c0, c1, c2, c3] = formats.coefficients;
+    let meets = [
+        ("stage 1", c3, c2, formats.t1.fraction_bits()),
+        ("stage 2", formats.t1, c1, formats.t2.fraction_bits()),
+        ("stage 3", formats.t2, c0, config.output.fraction_bits()),
+    ];
+    let stages = meets.map(|(name, multiplicand, addend, result)| {
+        let fractions = Fractions {
+            multiplicand: multiplicand.fraction_bits(),
+            variable: v,
+            addend: addend.fraction_bits(),
+            result,
+        };
+        let line = MultiplyAdd::aligned(fractions, config.form == Form::Centred, config.rounding);
+        let bits = line.lane_bits(multiplicand.width(), formats.v.width(), addend.width());
+        parts.lane_bits.push((name, bits));
+        line
+    });
+    (variable, stages)
+}

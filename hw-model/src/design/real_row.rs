@@ -1,0 +1,109 @@
+//! The real functions behind one ROM row.
+
+use crate::config::{Config, Cut, Form, Tail};
+use crate::fit::{Curve, FitError, Levels, Method, fit};
+use crate::highlight::{Cubic, Rational};
+use crate::quantise::round_scaled;
+use crate::rounding::Rounding;
+
+/// What one row means in real numbers, and where its parts meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RealRow {
+    /// n.
+    pub exponent: f64,
+    /// p = 1 − q: the epicentre is 0 ≤ s ≤ p in s = 1 − x.
+    pub epicentre: f64,
+    /// The polynomial; none for schlick.
+    pub polynomial: Option<Cubic>,
+    /// What the divider computes, where the configuration keeps one.
+    pub tail: Option<Rational>,
+    /// The least x (in the input's unit) at which the polynomial answers.
+    pub cut: i64,
+    /// e = ⌊log2 n⌋ in the centred form, 0 in the power form.
+    pub shift: u32,
+}
+
+impl RealRow {
+    /// The row of one exponent.
+    ///
+    /// # Errors
+    /// When the exponent is out of range.
+    pub fn new(config: &Config, levels: Levels, exponent: f64) -> Result<Self, FitError> {
+        let own = fit(config.method, exponent, levels)?;
+        let (polynomial, tail) = match own.curve {
+            Curve::Cubic(cubic) if config.tail == Tail::Rational => (
+                Some(cubic),
+                fit(Method::Rational, exponent, levels)?.rational().copied(),
+            ),
+            Curve::Cubic(cubic) => (Some(cubic), None),
+            Curve::Rational(rational) => (None, Some(rational)),
+            Curve::Composite { epicentre, tail } => (Some(epicentre), Some(tail)),
+        };
+        let epicentre = own.epicentre.s;
+        let cut_s = match (config.cut, &polynomial) {
+            (Cut::Minimum, Some(cubic)) => lowest_s(cubic, epicentre),
+            _ => epicentre,
+        };
+        let shift = match config.form {
+            Form::Centred if polynomial.is_some() => floor_log2(exponent),
+            _ => 0,
+        };
+        let cut = cut_bits(config, cut_s);
+        Ok(Self {
+            exponent,
+            epicentre,
+            polynomial,
+            tail,
+            cut,
+            shift,
+        })
+    }
+
+    /// The real function at x = 1 − s, with real coefficients, through the same parts as the
+    /// hardware: the polynomial above the cut (clamped to [0, 1]), the ratio or zero below.
+    #[must_use]
+    pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
+        match (&self.polynomial, &self.tail) {
+            (Some(cubic), _) if above_cut => cubic.centred.value_at_s(s).clamp(0.0, 1.0),
+            (_, Some(rational)) => rational.value_at_s(s),
+            _ => 0.0,
+        }
+    }
+}
+
+/// s of the polynomial's minimum, between the epicentre's end and 1; 1 where it falls all the way.
+fn lowest_s(cubic: &Cubic, epicentre: f64) -> f64 {
+    cubic
+        .centred
+        .first_minimum()
+        .unwrap_or(1.0)
+        .clamp(epicentre, 1.0)
+}
+
+/// The least x in the input's unit with x ≥ 1 − s: 1 − ⌊s⌋ in that unit. s ≤ 1, so it is not negative.
+fn cut_bits(config: &Config, s: f64) -> i64 {
+    let floor = round_scaled(s, config.input.fraction_bits(), Rounding::Floor).unwrap_or(0);
+    config.input.one() - floor as i64
+}
+
+/// ⌊log2 n⌋ from the binary exponent of n ≥ 1: exact, where a logarithm could round up.
+fn floor_log2(n: f64) -> u32 {
+    const FRACTION_BITS: u32 = f64::MANTISSA_DIGITS - 1;
+    const BIAS: u32 = f64::MAX_EXP as u32 - 1;
+    ((n.to_bits() >> FRACTION_BITS) as u32).saturating_sub(BIAS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::floor_log2;
+
+    #[test]
+    fn the_shift_is_exact_beside_powers_of_two() {
+        for e in 0..50 {
+            let power = f64::from(e).exp2();
+            assert_eq!(floor_log2(power), e as u32);
+            assert_eq!(floor_log2(power.next_up()), e as u32);
+            assert_eq!(floor_log2((2.0 * power).next_down()), e as u32);
+        }
+    }
+}
