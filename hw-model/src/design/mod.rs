@@ -6,6 +6,7 @@
 
 mod polynomial;
 mod real_row;
+mod rom_row;
 mod tail;
 
 use thiserror::Error;
@@ -21,6 +22,7 @@ use crate::quantise::QuantiseError;
 use crate::rom::{FieldName, Rom, Row};
 
 pub use real_row::RealRow;
+pub use rom_row::RomRow;
 
 /// Why a configuration gives no hardware.
 #[derive(Debug, Error)]

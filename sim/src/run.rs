@@ -1,0 +1,135 @@
+//! Drives the pipeline with a stimulus, cycle by cycle, and counts what happens.
+//!
+//! The driver keeps the handshake rule: a request that is not taken stays presented, unchanged, and
+//! those after it wait. A row of the stimulus is a cycle: its request may be presented from that
+//! cycle on, its ready and reset apply in that very cycle. After the last row the pipeline runs
+//! with ready high until it is empty.
+
+use std::collections::VecDeque;
+
+use crate::pipeline::{Inputs, Outputs, Pipeline, Rank};
+
+/// One cycle of stimulus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct StimulusCycle {
+    /// A request (address, x), or a bubble.
+    pub request: Option<(u32, i64)>,
+    /// Whether results can be taken in this cycle.
+    pub ready: bool,
+    /// Whether reset is high in this cycle.
+    pub reset: bool,
+}
+
+/// Everything visible in one cycle, at the rising edge that ends it.
+#[derive(Debug, Clone, Copy)]
+pub struct Cycle<'a> {
+    /// Counted from 0.
+    pub index: u64,
+    /// What was driven.
+    pub inputs: &'a Inputs,
+    /// What the pipeline showed.
+    pub outputs: &'a Outputs,
+    /// Every register before the edge.
+    pub ranks: &'a [Rank],
+}
+
+/// What a run counted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+pub struct Counts {
+    /// Clock cycles.
+    pub cycles: u64,
+    /// Requests taken.
+    pub requests: u64,
+    /// Results taken.
+    pub results: u64,
+    /// Requests and results lost to a reset.
+    pub lost_to_reset: u64,
+    /// Cycles in which a result waited because it was not taken.
+    pub stalls: u64,
+    /// Cycles in which the pipeline could take a request and there was none, before the last request.
+    pub bubbles: u64,
+    /// Cycle of the first request taken.
+    first_request: Option<u64>,
+    /// Cycle of the last request taken.
+    last_request: Option<u64>,
+    /// Bubbles after the last request so far; they count once another request follows.
+    trailing_bubbles: u64,
+}
+
+impl Counts {
+    /// Mean number of cycles from one request taken to the next; `None` for fewer than two.
+    #[must_use]
+    pub fn initiation_interval(&self) -> Option<f64> {
+        let (first, last) = (self.first_request?, self.last_request?);
+        let gaps = self.requests.checked_sub(1).filter(|&gaps| gaps > 0)?;
+        Some((last - first) as f64 / gaps as f64)
+    }
+
+    /// Cycles for a million results at the rate of this run; `None` without results.
+    #[must_use]
+    pub fn cycles_per_million(&self) -> Option<f64> {
+        (self.results > 0).then(|| self.cycles as f64 * 1e6 / self.results as f64)
+    }
+
+    fn count(&mut self, cycle: &Cycle<'_>) {
+        let Cycle { inputs, outputs, ranks, .. } = cycle;
+        self.cycles += 1;
+        let taken = inputs.in_valid && outputs.in_ready;
+        let delivered = outputs.out_valid && inputs.out_ready && !inputs.reset;
+        if taken {
+            self.requests += 1;
+            self.bubbles += std::mem::take(&mut self.trailing_bubbles);
+            self.first_request.get_or_insert(cycle.index);
+            self.last_request = Some(cycle.index);
+        } else if outputs.in_ready && self.first_request.is_some() {
+            self.trailing_bubbles += 1;
+        }
+        self.results += u64::from(delivered);
+        self.stalls += u64::from(outputs.out_valid && !inputs.out_ready);
+        if inputs.reset {
+            self.lost_to_reset += ranks.iter().filter(|rank| rank.valid).count() as u64;
+        }
+    }
+}
+
+/// Runs the stimulus to its end and until the pipeline is empty; `observe` sees every cycle.
+///
+/// # Errors
+/// The first error of `observe`.
+pub fn run<E>(
+    pipeline: &mut Pipeline<'_>,
+    stimulus: impl IntoIterator<Item = Result<StimulusCycle, E>>,
+    mut observe: impl FnMut(&Cycle<'_>) -> Result<(), E>,
+) -> Result<Counts, E> {
+    let mut counts = Counts::default();
+    let mut waiting = VecDeque::new();
+    let mut stimulus = stimulus.into_iter();
+    loop {
+        let row = stimulus.next().transpose()?;
+        if row.is_none() && waiting.is_empty() && pipeline.is_empty() {
+            return Ok(counts);
+        }
+        waiting.extend(row.and_then(|row| row.request));
+        let inputs = inputs(row, waiting.front().copied());
+        let outputs = pipeline.combinational(&inputs);
+        let cycle =
+            Cycle { index: counts.cycles, inputs: &inputs, outputs: &outputs, ranks: pipeline.ranks() };
+        observe(&cycle)?;
+        counts.count(&cycle);
+        pipeline.clock();
+        if inputs.in_valid && outputs.in_ready {
+            waiting.pop_front();
+        }
+    }
+}
+
+fn inputs(row: Option<StimulusCycle>, request: Option<(u32, i64)>) -> Inputs {
+    let (address, x) = request.unwrap_or_default();
+    Inputs {
+        reset: row.is_some_and(|row| row.reset),
+        in_valid: request.is_some(),
+        address,
+        x,
+        out_ready: row.is_none_or(|row| row.ready),
+    }
+}

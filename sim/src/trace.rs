@@ -1,0 +1,87 @@
+//! Every register of every cycle, as CSV.
+
+use std::io::Write;
+
+use hw_model::datapath::{Datapath, Register};
+
+use crate::run::Cycle;
+
+/// Writes a line for each cycle: the ports, then every register of every rank before the edge. A
+/// register that was never loaded is `x`, as an RTL simulator shows it.
+pub struct TraceWriter<W: Write> {
+    csv: csv::Writer<W>,
+    registers: Vec<Vec<Register>>,
+}
+
+/// The columns before the registers.
+const PORTS: [&str; 10] = [
+    "cycle", "rst", "in_valid", "in_ready", "address", "x", "out_valid", "out_ready", "intensity",
+    "status",
+];
+
+impl<W: Write> TraceWriter<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// When `output` cannot be written.
+    pub fn new(output: W, datapath: &Datapath) -> csv::Result<Self> {
+        let registers: Vec<_> =
+            (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
+        let mut csv = csv::Writer::from_writer(output);
+        let mut header: Vec<String> = PORTS.map(str::to_owned).to_vec();
+        for (rank, registers) in registers.iter().enumerate() {
+            let scope = datapath.rank_name(rank);
+            header.push(format!("{scope}.valid"));
+            header.extend(registers.iter().map(|register| format!("{scope}.{}", register.name)));
+        }
+        csv.write_record(&header)?;
+        Ok(Self { csv, registers })
+    }
+
+    /// Writes one cycle.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> csv::Result<()> {
+        let (inputs, outputs) = (cycle.inputs, cycle.outputs);
+        let flag = |flag: bool| i64::from(flag);
+        let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
+        let ports = [
+            Some(cycle.index as i64),
+            Some(flag(inputs.reset)),
+            Some(flag(inputs.in_valid)),
+            Some(flag(outputs.in_ready)),
+            Some(inputs.address.into()),
+            Some(inputs.x),
+            Some(flag(outputs.out_valid)),
+            Some(flag(inputs.out_ready)),
+            shown.then_some(outputs.intensity),
+            shown.then_some(outputs.status.bits().into()),
+        ];
+        for port in ports {
+            self.field(port)?;
+        }
+        for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
+            self.field(Some(flag(rank.valid)))?;
+            for register in registers {
+                self.field(rank.loaded.then(|| (register.bits)(&rank.signals)))?;
+            }
+        }
+        self.csv.write_record(None::<&[u8]>)
+    }
+
+    fn field(&mut self, bits: Option<i64>) -> csv::Result<()> {
+        match bits {
+            Some(bits) => self.csv.write_field(bits.to_string()),
+            None => self.csv.write_field("x"),
+        }
+    }
+
+    /// Flushes, and gives the output back.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn finish(self) -> std::io::Result<W> {
+        self.csv.into_inner().map_err(csv::IntoInnerError::into_error)
+    }
+}
