@@ -54,13 +54,12 @@ impl DoubleDouble {
     /// The natural logarithm of a normal f64.
     ///
     /// One Newton step on y ↦ x·e^−y: with y₀ the f64 logarithm, ln x = y₀ + ln(1 + r), where
-    /// r = x·e^−y₀ − 1 = (x − 1) + x·expm1(−y₀) is of size 2⁻⁵³·|y₀|. So ln(1 + r) = r − r²/2 leaves
-    /// r³, and the second way of writing r keeps the result accurate relative to itself for x → 1.
+    /// r = x·e^−y₀ − 1 = (x − 1) + x·expm1(−y₀). As y₀ is correctly rounded, |r| ≤ 2⁻⁵³·|y₀|, and r alone
+    /// is ln(1 + r) but for r²/2: 2⁻¹⁰⁷·|y₀| of the result, at most 2⁻⁹⁷. Written in the second way, r
+    /// keeps the result accurate relative to itself for x → 1.
     pub fn ln(x: f64) -> Self {
-        let guess = core_math::log(x);
-        let excess = two_sum(x, -1.0) + Self::from(-guess).exp_m1() * Self::from(x);
-        let r = excess.to_f64();
-        Self::from(guess) + excess + Self::from(-0.5 * r * r)
+        let guess = Self::from(core_math::log(x));
+        guess + (two_sum(x, -1.0) + (-guess).exp_m1() * Self::from(x))
     }
 
     /// e^self − 1 for −700 ≤ self ≤ 700, with a relative error of at most 2⁻⁹⁴.

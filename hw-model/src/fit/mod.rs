@@ -143,10 +143,14 @@ impl Fit {
         }
     }
 
-    /// The approximation at x in [0, 1].
+    /// The approximation at x in [0, 1]. A hyperbola keeps its digits also for x so small that 1 − x is 1.
     #[must_use]
     pub fn value(&self, x: f64) -> f64 {
-        self.value_at_s(1.0 - x)
+        match &self.curve {
+            Curve::Rational(rational) => rational.value(x),
+            Curve::Composite { tail, .. } if x < self.epicentre.x => tail.value(x),
+            Curve::Cubic(_) | Curve::Composite { .. } => self.value_at_s(1.0 - x),
+        }
     }
 
     /// The cubic, where the method has one.

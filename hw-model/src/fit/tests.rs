@@ -42,7 +42,9 @@ proptest! {
     #[test]
     fn the_edge_is_on_the_reference(n in exponents(), level in 1e-10_f64..1.0) {
         let edge = crossing(n, level).unwrap();
-        close(phong_at_s(n, edge.s), level, 1e-14 * level)?;
+        // Rounding s moves x^n by a part in n·s/x of an ulp: much, where the edge is close to x = 0.
+        let tolerance = f64::EPSILON * (4.0 + n * edge.s / edge.x);
+        close(phong_at_s(n, edge.s), level, tolerance * level)?;
         close(edge.x + edge.s, 1.0, f64::EPSILON)?;
     }
 
@@ -101,6 +103,8 @@ proptest! {
         let slope = edge_slope(n, levels, &fit);
         close(tail.slope_at_s(p) / slope, 1.0, 8.0 * tolerance)?;
         prop_assert_eq!(tail.value_at_s(1.0), 0.0);
+        // Far down g is x/A, also where 1 − x is 1.
+        close(fit.value(1e-30) * tail.a, 1e-30, 1e-14 * 1e-30 * (1.0 + n * p))?;
     }
 
     #[test]
