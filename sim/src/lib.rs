@@ -1,1 +1,3 @@
 //! The clocked highlight pipeline, its analyses, and the `blysk` command.
+
+pub mod analysis;

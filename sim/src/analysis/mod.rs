@@ -1,0 +1,3 @@
+//! What can be said of a configuration: approximation, hardware errors.
+
+pub mod approximation;
