@@ -1,9 +1,9 @@
 //! Cubic polynomials in their two forms.
 //!
-//! | form    | value                           | coefficients for large n                            |
-//! |---------|---------------------------------|-----------------------------------------------------|
-//! | centred | 1 − s·(k1 − s·(k2 − s·k3))      | k_i·p^i of size 1: every term matters, none cancels |
-//! | power   | a·x³ + b·x² + c·x + d           | all of size n², for a value of size 1               |
+//! | form    | value                      | coefficients for large n                               |
+//! |---------|----------------------------|--------------------------------------------------------|
+//! | centred | 1 − s·(k1 − s·(k2 − s·k3)) | k_i·p^i of size 1 or less: no term outgrows the value  |
+//! | power   | a·x³ + b·x² + c·x + d      | all of size n², for a value of size 1                  |
 //!
 //! with s = 1 − x. The same polynomial, but in f64 the power form loses about 2·log10(n) digits,
 //! both in evaluation and in the conversion from one form to the other. So a fit computes each
