@@ -59,22 +59,15 @@ impl<W: Write> TraceWriter<W> {
             shown.then_some(outputs.status.bits().into()),
         ];
         for port in ports {
-            self.field(port)?;
+            field(&mut self.csv, port)?;
         }
         for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
-            self.field(Some(flag(rank.valid)))?;
+            field(&mut self.csv, Some(flag(rank.valid)))?;
             for register in registers {
-                self.field(rank.loaded.then(|| (register.bits)(&rank.signals)))?;
+                field(&mut self.csv, rank.loaded.then(|| (register.bits)(&rank.signals)))?;
             }
         }
         self.csv.write_record(None::<&[u8]>)
-    }
-
-    fn field(&mut self, bits: Option<i64>) -> csv::Result<()> {
-        match bits {
-            Some(bits) => self.csv.write_field(bits.to_string()),
-            None => self.csv.write_field("x"),
-        }
     }
 
     /// Flushes, and gives the output back.
@@ -83,5 +76,12 @@ impl<W: Write> TraceWriter<W> {
     /// When the output cannot be written.
     pub fn finish(self) -> std::io::Result<W> {
         self.csv.into_inner().map_err(csv::IntoInnerError::into_error)
+    }
+}
+
+fn field<W: Write>(csv: &mut csv::Writer<W>, bits: Option<i64>) -> csv::Result<()> {
+    match bits {
+        Some(bits) => csv.write_field(bits.to_string()),
+        None => csv.write_field("x"),
     }
 }

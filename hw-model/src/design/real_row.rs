@@ -59,6 +59,12 @@ impl RealRow {
         })
     }
 
+    /// The least x in the input's unit that lies on the epicentre, x ≥ q.
+    #[must_use]
+    pub fn first_of_epicentre(&self, config: &Config) -> i64 {
+        cut_bits(config, self.epicentre)
+    }
+
     /// The real function at x = 1 − s, with real coefficients, through the same parts as the
     /// hardware: the polynomial above the cut (clamped to [0, 1]), the ratio or zero below.
     #[must_use]

@@ -1,3 +1,4 @@
 //! What can be said of a configuration: approximation, hardware errors.
 
 pub mod approximation;
+pub mod sweep;
