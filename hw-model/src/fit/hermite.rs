@@ -1,4 +1,4 @@
-//! The cubic of [Rom]: f(1) = 1, f(q) = Q, f′(q) = nQ/q, f(0) = 0.
+//! The cubic of \[Rom\]: f(1) = 1, f(q) = Q, f′(q) = nQ/q, f(0) = 0.
 //!
 //! Newton's form on the nodes 1, q, q, 0, with p = 1 − q, R = Q/q = q^(n−1) and P = 1 − R:
 //!

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// The levels Q and G of x^n, 0 < G < Q < 1. The epicentre is where x^n ≥ Q; only the `three_point`
 /// method looks at G.
 ///
-/// The default is Q = 1/2, as [Rom] takes it, and G = 1/18, the greatest 1/k with which the
+/// The default is Q = 1/2, as \[Rom\] takes it, and G = 1/18, the greatest 1/k with which the
 /// `three_point` cubic has no negative zone for any n ≥ 3.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Raw", into = "Raw")]

@@ -10,7 +10,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
-    /// The cubic with f(1) = 1, f(q) = Q, f′(q) = nQ/q, f(0) = 0: the main result of [Rom].
+    /// The cubic with f(1) = 1, f(q) = Q, f′(q) = nQ/q, f(0) = 0: the main result of \[Rom\].
     Hermite,
     /// The cubic with f(1) = 1, f(r) = Q, f(l) = G, f(0) = 0, r = q, l = G^(1/n).
     ThreePoint,

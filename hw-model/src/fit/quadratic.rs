@@ -1,4 +1,4 @@
-//! The parabola of [Rom], Fig. 2: f(1) = 1, f(q) = Q, f′(q) = nQ/q.
+//! The parabola of \[Rom\], Fig. 2: f(1) = 1, f(q) = Q, f′(q) = nQ/q.
 //!
 //! The differences D1, D2 and Δ are those of `hermite`; k1 = −D1 + Δ, k2 = D2, k3 = 0. Its value at
 //! x = 0 is not zero: d = 1 − k1 + k2.

@@ -1,7 +1,7 @@
-//! The tail of [Rom]: g = x/(A − B·x) with g(q) = Q, g′(q) = nQ/q.
+//! The tail of \[Rom\]: g = x/(A − B·x) with g(q) = Q, g′(q) = nQ/q.
 //!
 //! A = nq/Q, B = (n − 1)/Q, and the denominator at x = 1 is A − B = (1 − n·p)/Q, in which n·p is of
-//! size −ln Q however large n is. (The misprinted derivative in [Rom] lacks the square of A − B·x.)
+//! size −ln Q however large n is. (The misprinted derivative in \[Rom\] lacks the square of A − B·x.)
 
 use super::crossing::{WideCrossing, less_one};
 use super::double_double::DoubleDouble;

@@ -1,4 +1,4 @@
-//! The cubic of [Rom] against blooming: f(1) = 1, f(r) = Q, f(l) = G, f(0) = 0.
+//! The cubic of \[Rom\] against blooming: f(1) = 1, f(r) = Q, f(l) = G, f(0) = 0.
 //!
 //! f(x)/x is a parabola through (1, 1), (r, Q/r), (l, G/l):
 //!
@@ -12,7 +12,7 @@
 //! k1 of size n is not computed from a, b, c of size n². r − l = l·expm1((ln Q − ln G)/n) keeps its
 //! digits for large n; when G is close to Q, e1 − e2 and r − l lose them together, by Q − G.
 //!
-//! The coefficients printed in [Rom] do not solve the system printed there; these do.
+//! The coefficients printed in \[Rom\] do not solve the system printed there; these do.
 
 use super::assemble;
 use super::crossing::WideCrossing;

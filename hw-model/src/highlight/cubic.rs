@@ -40,7 +40,7 @@ pub struct Power {
 pub struct Cubic {
     /// The form to evaluate.
     pub centred: Centred,
-    /// The form of [Rom], for hardware that computes it.
+    /// The form of \[Rom\], for hardware that computes it.
     pub power: Power,
 }
 
