@@ -1,0 +1,98 @@
+//! Memory images as Verilog's `$readmemh` reads them.
+//!
+//! One word a line, in hex digits of a fixed number, after a header of `//` comments that says what
+//! a word is made of. Reading follows the language: white space between numbers, `//` and `/* */`
+//! comments, `_` inside a number, `@` with a hex address. The digits `x`, `z` and `?`, which a
+//! simulator writes for values it does not know, are read as *unknown* and never as numbers.
+
+mod read;
+mod write;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+pub use read::{Entry, Value, parse, read_words};
+pub use write::{Header, write_header, write_word};
+
+/// Why a memory file is refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum MemoryError {
+    /// The file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Something in a line.
+    #[error("{}:{line}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: u64,
+        /// What is wrong with it.
+        problem: LineProblem,
+    },
+    /// Words are missing.
+    #[error(
+        "{}: the word at address {address} is missing ({found} of {expected} words are there); \
+         the file may have been cut short: write it again", path.display()
+    )]
+    Short {
+        /// The file.
+        path: PathBuf,
+        /// The first address without a word.
+        address: usize,
+        /// Words found.
+        found: usize,
+        /// Words expected.
+        expected: usize,
+    },
+}
+
+/// What is wrong with a line of a memory file.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LineProblem {
+    /// A character that no number has.
+    #[error("{0:?} is not a hex number; digits are 0-9, a-f, and _ between them")]
+    Digit(String),
+    /// `@` without a hex address.
+    #[error("{0:?} is not an address; write @ and hex digits, for example @1f")]
+    Address(String),
+    /// The value does not fit the word.
+    #[error("{text} does not fit a word of {width} bits")]
+    TooWide {
+        /// The number as written.
+        text: String,
+        /// Bits of a word.
+        width: u32,
+    },
+    /// A digit is `x` or `z`.
+    #[error("{0} has unknown bits (x or z), where a known value belongs")]
+    Unknown(String),
+    /// The word is beyond the memory's last address.
+    #[error("the word for address {address} is one too many; the memory has {depth} words")]
+    PastEnd {
+        /// The address.
+        address: u64,
+        /// Words of the memory.
+        depth: usize,
+    },
+    /// A `/*` that is never closed.
+    #[error("a comment begins here and does not end; close it with */")]
+    OpenComment,
+}
+
+fn at_line(path: &Path, line: u64, problem: LineProblem) -> MemoryError {
+    MemoryError::Line {
+        path: path.to_owned(),
+        line,
+        problem,
+    }
+}

@@ -1,0 +1,120 @@
+//! How ports are laid side by side in one memory word.
+
+use dashu_int::UBig;
+use hw_model::datapath::{Datapath, Status};
+use hw_model::format::QFormat;
+use hw_model::rom::{Layout, Place};
+use serde::{Deserialize, Serialize};
+
+/// One field of a word.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WordField {
+    /// The port or ROM field.
+    pub name: String,
+    /// Its format; the bits are two's complement where it is signed.
+    pub format: QFormat,
+    /// Its highest bit in the word.
+    pub msb: u32,
+    /// Its lowest bit in the word.
+    pub lsb: u32,
+}
+
+/// The fields of a word, from the highest bits down, as in a Verilog concatenation.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WordLayout {
+    /// Bits of the word.
+    pub width: u32,
+    /// The fields.
+    pub fields: Vec<WordField>,
+}
+
+impl WordLayout {
+    /// `{address, x}`.
+    #[must_use]
+    pub fn stimulus(datapath: &Datapath) -> Self {
+        let address = QFormat::field(datapath.rom().address_width());
+        Self::of(&[("address", address), ("x", datapath.formats().input)])
+    }
+
+    /// `{status, intensity}`.
+    #[must_use]
+    pub fn expected(datapath: &Datapath) -> Self {
+        let status = QFormat::field(Status::WIDTH);
+        Self::of(&[("status", status), ("intensity", datapath.formats().output)])
+    }
+
+    /// The stored fields of a ROM word, as [`Layout::pack`] packs them.
+    #[must_use]
+    pub fn rom(layout: &Layout) -> Self {
+        let stored = layout
+            .fields()
+            .iter()
+            .rev()
+            .filter_map(|field| match field.place {
+                Place::Stored { lsb } => Some(WordField {
+                    name: field.name.to_string(),
+                    format: field.format,
+                    msb: lsb + field.format.width() - 1,
+                    lsb,
+                }),
+                Place::Constant { .. } => None,
+            });
+        Self {
+            width: layout.word_width(),
+            fields: stored.collect(),
+        }
+    }
+
+    fn of(ports: &[(&str, QFormat)]) -> Self {
+        let width = ports.iter().map(|(_, format)| format.width()).sum();
+        let mut above = width;
+        let fields = ports.iter().map(|&(name, format)| {
+            let msb = above - 1;
+            above -= format.width();
+            WordField {
+                name: name.to_owned(),
+                format,
+                msb,
+                lsb: above,
+            }
+        });
+        Self {
+            width,
+            fields: fields.collect(),
+        }
+    }
+
+    /// Hex digits of a word; a word without bits still takes one.
+    #[must_use]
+    pub fn digits(&self) -> usize {
+        self.width.div_ceil(4).max(1) as usize
+    }
+
+    /// The word of these bits, given in the order of the fields. For the port words, which have at
+    /// most 80 bits.
+    #[must_use]
+    pub fn pack(&self, bits: &[i64]) -> u128 {
+        debug_assert_eq!(bits.len(), self.fields.len());
+        self.fields
+            .iter()
+            .zip(bits)
+            .fold(0, |word, (field, &bits)| {
+                word | u128::from(field.format.to_word(bits)) << field.lsb
+            })
+    }
+
+    /// The bits of a word, in the order of the fields; what lies above the width is ignored.
+    #[must_use]
+    pub fn unpack(&self, word: &UBig) -> Vec<i64> {
+        let bits = |field: &WordField| {
+            let low = (word >> field.lsb as usize) & UBig::from(u64::MAX);
+            // Masked to 64 bits just above, so the conversion cannot fail.
+            field
+                .format
+                .from_word(u64::try_from(low).unwrap_or_default())
+        };
+        self.fields.iter().map(bits).collect()
+    }
+}

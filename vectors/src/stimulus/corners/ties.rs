@@ -1,0 +1,157 @@
+//! How far a line's rounding is from a tie.
+//!
+//! A line drops d bits; it is a tie when they are exactly 2^(d−1). The lines keep only the rounded
+//! result, so the sum before the rounding is computed again by the same line with every bit kept.
+
+use hw_model::datapath::front_end::{Region, Variable};
+use hw_model::datapath::ranks::Formats;
+use hw_model::datapath::stage::{Fractions, MultiplyAdd};
+use hw_model::datapath::{Datapath, Signals};
+use hw_model::rom::FieldName;
+use hw_model::rounding::Rounding;
+
+/// A line that rounds.
+#[derive(Debug, Clone, Copy)]
+pub enum Line {
+    /// u = (1 − x)·2^e.
+    Variable { one: i64, up: u32, drop: u32 },
+    /// A multiply-add with all its bits, of which the real one drops `drop`.
+    MultiplyAdd {
+        register: &'static str,
+        exact: MultiplyAdd,
+        drop: u32,
+    },
+    /// The quotient, of which a guard bit and a sticky bit are dropped.
+    Quotient,
+}
+
+/// Every line of the data path that rounds, the one nearest to the output first.
+pub fn lines(datapath: &Datapath) -> Vec<Line> {
+    let mut lines = Vec::new();
+    let stages = datapath
+        .stages()
+        .map(|stages| stages.as_slice())
+        .unwrap_or_default();
+    for (index, stage) in stages.iter().enumerate().rev() {
+        let fractions = stage_fractions(datapath.formats(), index);
+        lines.extend(exact_line(["t1", "t2", "t3"][index], stage, fractions));
+    }
+    if let Some(divider) = datapath.divider() {
+        lines.insert(lines.len().min(1), Line::Quotient);
+        let fractions = datapath.formats().tail.map(|formats| Fractions {
+            multiplicand: formats.b.fraction_bits(),
+            variable: datapath.formats().input.fraction_bits(),
+            addend: formats.a.fraction_bits(),
+            result: 0,
+        });
+        lines.extend(exact_line("divisor", &divider.divisor, fractions));
+    }
+    let front_end = datapath.front_end();
+    if let Some(Variable::U { up, drop, .. }) = front_end.variable
+        && drop > 0
+    {
+        lines.push(Line::Variable {
+            one: front_end.one,
+            up,
+            drop,
+        });
+    }
+    lines
+}
+
+fn stage_fractions(formats: &Formats, index: usize) -> Option<Fractions> {
+    let formats = formats.polynomial.as_ref()?;
+    let multiplicand = [formats.coefficients[0], formats.t1, formats.t2][index];
+    Some(Fractions {
+        multiplicand: multiplicand.fraction_bits(),
+        variable: formats.v.fraction_bits(),
+        addend: formats.coefficients[index + 1].fraction_bits(),
+        result: 0,
+    })
+}
+
+/// None where nothing is dropped.
+fn exact_line(
+    register: &'static str,
+    line: &MultiplyAdd,
+    fractions: Option<Fractions>,
+) -> Option<Line> {
+    let (fractions, drop) = (fractions?, line.dropped_bits());
+    let result = (fractions.multiplicand + fractions.variable).max(fractions.addend);
+    let whole = Fractions {
+        result,
+        ..fractions
+    };
+    let exact = MultiplyAdd::aligned(whole, line.subtracts(), Rounding::Floor);
+    (drop > 0).then_some(Line::MultiplyAdd {
+        register,
+        exact,
+        drop,
+    })
+}
+
+impl Line {
+    /// The register that takes the rounded result.
+    pub const fn register(&self) -> &'static str {
+        match self {
+            Self::Variable { .. } => "u",
+            Self::MultiplyAdd { register, .. } => register,
+            Self::Quotient => "quotient",
+        }
+    }
+
+    /// The part of the pipeline the line belongs to.
+    pub fn region(&self) -> Region {
+        match self.register() {
+            "quotient" | "divisor" => Region::Tail,
+            _ => Region::Polynomial,
+        }
+    }
+
+    /// The distance from a tie, in units of the result: 0 for a tie, at most ½. `last` is what the
+    /// last rank holds.
+    pub fn distance(&self, last: &Signals) -> f64 {
+        match self {
+            Self::Variable { one, up, drop } => {
+                let s = i128::from(one - last.x);
+                from_half(s << (last.row.shift() + up), *drop)
+            }
+            Self::MultiplyAdd {
+                register,
+                exact,
+                drop,
+            } => {
+                let operands = operands(register, last);
+                let [multiplicand, variable, addend] = operands.map(i128::from);
+                from_half(exact.apply(multiplicand, variable, addend), *drop)
+            }
+            Self::Quotient => {
+                let division = &last.division;
+                let beyond = division.remainder as f64 / division.divisor as f64;
+                // The quotient has one bit beyond the output's: odd means half and a little more.
+                let odd = division.digits & 1 == 1;
+                (if odd { beyond } else { 1.0 - beyond }) / 2.0
+            }
+        }
+    }
+}
+
+fn operands(register: &str, last: &Signals) -> [i64; 3] {
+    let field = |name| last.row.get(name);
+    match register {
+        "t1" => [field(FieldName::C3), last.v, field(FieldName::C2)],
+        "t2" => [last.t1, last.v, field(FieldName::C1)],
+        "t3" => [last.t2, last.v, field(FieldName::C0)],
+        _ => [
+            field(FieldName::TailB),
+            last.tail_x,
+            field(FieldName::TailA),
+        ],
+    }
+}
+
+/// |low `drop` bits − half|, in units of 2^drop.
+fn from_half(value: i128, drop: u32) -> f64 {
+    let dropped = value & ((1 << drop) - 1);
+    (dropped - (1 << (drop - 1))).abs() as f64 / f64::from(drop).exp2()
+}
