@@ -25,21 +25,13 @@ impl Case {
     #[must_use]
     pub fn at(rom: &Rom, address: u32, x: i64) -> Self {
         let exponent = rom.exponents().as_slice().get(address as usize).copied();
-        Self {
-            exponent,
-            address,
-            x,
-        }
+        Self { exponent, address, x }
     }
 
     /// The case of an exponent; without a ROM word it goes to the first address past the end.
     #[must_use]
     pub fn of(rom: &Rom, exponent: f64, x: i64) -> Self {
-        Self {
-            exponent: Some(exponent),
-            address: rom.address_of(exponent),
-            x,
-        }
+        Self { exponent: Some(exponent), address: rom.address_of(exponent), x }
     }
 }
 
@@ -72,13 +64,8 @@ pub enum Strategy {
 
 impl Strategy {
     /// Every strategy, the default first.
-    pub const ALL: [Self; 5] = [
-        Self::Mixed,
-        Self::Corners,
-        Self::Even,
-        Self::Random,
-        Self::Exhaustive,
-    ];
+    pub const ALL: [Self; 5] =
+        [Self::Mixed, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
 
     /// The name used on the command line and in files.
     #[must_use]

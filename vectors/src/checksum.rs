@@ -26,11 +26,7 @@ pub struct Checked<W> {
 impl<W> Checked<W> {
     /// Nothing has passed yet.
     pub fn new(inner: W) -> Self {
-        Self {
-            inner,
-            hash: Sha256::new(),
-            bytes: 0,
-        }
+        Self { inner, hash: Sha256::new(), bytes: 0 }
     }
 
     /// The writer again.
@@ -40,19 +36,8 @@ impl<W> Checked<W> {
 
     /// The writer, and the checksum of what passed.
     pub fn finish(self) -> (W, Checksum) {
-        let digits = self
-            .hash
-            .finalize()
-            .iter()
-            .map(|byte| format!("{byte:02x}"))
-            .collect();
-        (
-            self.inner,
-            Checksum {
-                bytes: self.bytes,
-                sha256: digits,
-            },
-        )
+        let digits = self.hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect();
+        (self.inner, Checksum { bytes: self.bytes, sha256: digits })
     }
 }
 
@@ -86,12 +71,6 @@ mod tests {
     fn the_checksum_is_the_published_one() {
         let found = checksum(&b"abc"[..]).unwrap();
         let wanted = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(
-            found,
-            Checksum {
-                bytes: 3,
-                sha256: wanted.to_owned()
-            }
-        );
+        assert_eq!(found, Checksum { bytes: 3, sha256: wanted.to_owned() });
     }
 }

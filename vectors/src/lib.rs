@@ -1,17 +1,29 @@
 //! Cases for the highlight pipeline and the files they travel in.
 //!
-//! Generators ([`stimulus`]) choose cases and know nothing of checkers; [`bundle`] adds the golden
-//! model's answers and writes the files. Text formats of Verilog are known in this crate only.
+//! Generators ([`stimulus`]) choose cases and know nothing of checkers; a [`Bundle`] adds the golden
+//! model's answers and writes the files; [`verify()`] reads them back. Text formats of Verilog are known
+//! in this crate only.
+//!
+//! Everything written goes through [`whole_file`]: files appear whole, or not at all.
 
+pub mod bundle;
 pub mod case;
 pub mod checksum;
 pub mod kind;
+pub mod manifest;
 pub mod memory_file;
 pub mod packing;
 pub mod reference;
 pub mod stimulus;
+pub mod stimulus_file;
 pub mod table;
+pub mod verify;
 pub mod whole_file;
 
+pub use bundle::{Bundle, BundleError};
 pub use case::{Case, Sample, Strategy};
 pub use kind::Kind;
+pub use manifest::Manifest;
+pub use stimulus_file::{Cycle, StimulusError, read_stimulus};
+pub use verify::{Verified, VerifyError, verify};
+pub use whole_file::{OutputError, OutputFile, OutputSet, WholeFile};

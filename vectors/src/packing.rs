@@ -48,23 +48,16 @@ impl WordLayout {
     /// The stored fields of a ROM word, as [`Layout::pack`] packs them.
     #[must_use]
     pub fn rom(layout: &Layout) -> Self {
-        let stored = layout
-            .fields()
-            .iter()
-            .rev()
-            .filter_map(|field| match field.place {
-                Place::Stored { lsb } => Some(WordField {
-                    name: field.name.to_string(),
-                    format: field.format,
-                    msb: lsb + field.format.width() - 1,
-                    lsb,
-                }),
-                Place::Constant { .. } => None,
-            });
-        Self {
-            width: layout.word_width(),
-            fields: stored.collect(),
-        }
+        let stored = layout.fields().iter().rev().filter_map(|field| match field.place {
+            Place::Stored { lsb } => Some(WordField {
+                name: field.name.to_string(),
+                format: field.format,
+                msb: lsb + field.format.width() - 1,
+                lsb,
+            }),
+            Place::Constant { .. } => None,
+        });
+        Self { width: layout.word_width(), fields: stored.collect() }
     }
 
     fn of(ports: &[(&str, QFormat)]) -> Self {
@@ -73,17 +66,9 @@ impl WordLayout {
         let fields = ports.iter().map(|&(name, format)| {
             let msb = above - 1;
             above -= format.width();
-            WordField {
-                name: name.to_owned(),
-                format,
-                msb,
-                lsb: above,
-            }
+            WordField { name: name.to_owned(), format, msb, lsb: above }
         });
-        Self {
-            width,
-            fields: fields.collect(),
-        }
+        Self { width, fields: fields.collect() }
     }
 
     /// Hex digits of a word; a word without bits still takes one.
@@ -97,12 +82,9 @@ impl WordLayout {
     #[must_use]
     pub fn pack(&self, bits: &[i64]) -> u128 {
         debug_assert_eq!(bits.len(), self.fields.len());
-        self.fields
-            .iter()
-            .zip(bits)
-            .fold(0, |word, (field, &bits)| {
-                word | u128::from(field.format.to_word(bits)) << field.lsb
-            })
+        self.fields.iter().zip(bits).fold(0, |word, (field, &bits)| {
+            word | u128::from(field.format.to_word(bits)) << field.lsb
+        })
     }
 
     /// The bits of a word, in the order of the fields; what lies above the width is ignored.
@@ -111,9 +93,7 @@ impl WordLayout {
         let bits = |field: &WordField| {
             let low = (word >> field.lsb as usize) & UBig::from(u64::MAX);
             // Masked to 64 bits just above, so the conversion cannot fail.
-            field
-                .format
-                .from_word(u64::try_from(low).unwrap_or_default())
+            field.format.from_word(u64::try_from(low).unwrap_or_default())
         };
         self.fields.iter().map(bits).collect()
     }

@@ -35,9 +35,6 @@ impl Expected {
     #[must_use]
     pub fn of(datapath: &Datapath, case: Case) -> Self {
         let last = datapath.evaluate(case.address, case.x);
-        Self {
-            intensity: last.intensity,
-            status: last.status.bits(),
-        }
+        Self { intensity: last.intensity, status: last.status.bits() }
     }
 }

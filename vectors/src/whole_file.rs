@@ -87,14 +87,8 @@ impl OutputFile {
             builder.permissions(permissions);
         }
         match builder.tempfile_in(directory) {
-            Ok(file) => Ok(Self {
-                target,
-                writer: BufWriter::with_capacity(BUFFER_BYTES, file),
-            }),
-            Err(source) => Err(OutputError::Write {
-                path: target,
-                source,
-            }),
+            Ok(file) => Ok(Self { target, writer: BufWriter::with_capacity(BUFFER_BYTES, file) }),
+            Err(source) => Err(OutputError::Write { path: target, source }),
         }
     }
 
@@ -107,10 +101,7 @@ impl OutputFile {
     /// An error of writing this file, with its path.
     #[must_use]
     pub fn error(&self, source: io::Error) -> OutputError {
-        OutputError::Write {
-            path: self.target.clone(),
-            source,
-        }
+        OutputError::Write { path: self.target.clone(), source }
     }
 
     /// Everything to the disc: a full disc shows here at the latest.
@@ -122,10 +113,7 @@ impl OutputFile {
             .and_then(|file| file.as_file().sync_all().map(|()| file));
         match finished {
             Ok(file) => Ok(Finished { target, file }),
-            Err(source) => Err(OutputError::Write {
-                path: target,
-                source,
-            }),
+            Err(source) => Err(OutputError::Write { path: target, source }),
         }
     }
 }
@@ -196,19 +184,13 @@ impl OutputSet {
                 // Somebody else was faster: as good, but not ours to remove.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists && path.is_dir() => {}
                 Err(source) => {
-                    return Err(OutputError::Directory {
-                        path: directory,
-                        source,
-                    });
+                    return Err(OutputError::Directory { path: directory, source });
                 }
             }
         }
         if !directory.is_dir() {
             let source = ErrorKind::NotADirectory.into();
-            return Err(OutputError::Directory {
-                path: directory,
-                source,
-            });
+            return Err(OutputError::Directory { path: directory, source });
         }
         Ok(set)
     }
@@ -249,8 +231,7 @@ impl OutputSet {
     /// As [`file`](Self::file) and [`keep`](Self::keep).
     pub fn write(&mut self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), OutputError> {
         let mut file = self.file(name)?;
-        file.write_all(contents.as_ref())
-            .map_err(|source| file.error(source))?;
+        file.write_all(contents.as_ref()).map_err(|source| file.error(source))?;
         self.keep(file)
     }
 
@@ -268,10 +249,7 @@ impl OutputSet {
         let mut paths = Vec::with_capacity(self.finished.len());
         for Finished { target, file } in std::mem::take(&mut self.finished) {
             if let Err(error) = file.persist(&target) {
-                return Err(OutputError::Write {
-                    path: target,
-                    source: error.error,
-                });
+                return Err(OutputError::Write { path: target, source: error.error });
             }
             paths.push(target);
         }
@@ -307,10 +285,7 @@ impl WholeFile {
     pub fn create(path: impl AsRef<Path>) -> Result<Self, OutputError> {
         let path = path.as_ref();
         let no_name = || OutputError::NoName(path.to_owned());
-        let name = path
-            .file_name()
-            .and_then(|name| name.to_str())
-            .ok_or_else(no_name)?;
+        let name = path.file_name().and_then(|name| name.to_str()).ok_or_else(no_name)?;
         if path.is_dir() {
             return Err(OutputError::NotAFile(path.to_owned()));
         }

@@ -90,9 +90,5 @@ pub enum LineProblem {
 }
 
 fn at_line(path: &Path, line: u64, problem: LineProblem) -> MemoryError {
-    MemoryError::Line {
-        path: path.to_owned(),
-        line,
-        problem,
-    }
+    MemoryError::Line { path: path.to_owned(), line, problem }
 }

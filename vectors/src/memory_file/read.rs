@@ -42,11 +42,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
             next_address = address.ok_or_else(|| wrong(LineProblem::Address(token.to_owned())))?;
         } else {
             let value = value(token).ok_or_else(|| wrong(LineProblem::Digit(token.to_owned())))?;
-            entries.push(Entry {
-                line,
-                address: next_address,
-                value,
-            });
+            entries.push(Entry { line, address: next_address, value });
             next_address = next_address.saturating_add(1);
         }
     }
@@ -60,31 +56,19 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
 /// When the file cannot be read, a line is wrong, a value is unknown or too wide, or a word is
 /// missing or beyond the end.
 pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, MemoryError> {
-    let text = fs::read_to_string(path).map_err(|source| MemoryError::Io {
-        path: path.to_owned(),
-        source,
-    })?;
+    let text = fs::read_to_string(path)
+        .map_err(|source| MemoryError::Io { path: path.to_owned(), source })?;
     let mut words: Vec<Option<UBig>> = vec![None; depth];
-    for Entry {
-        line,
-        address,
-        value,
-    } in parse(&text, path)?
-    {
+    for Entry { line, address, value } in parse(&text, path)? {
         let wrong = |problem| Err(at_line(path, line, problem));
-        let place = usize::try_from(address)
-            .ok()
-            .and_then(|address| words.get_mut(address));
+        let place = usize::try_from(address).ok().and_then(|address| words.get_mut(address));
         let Some(place) = place else {
             return wrong(LineProblem::PastEnd { address, depth });
         };
         match value {
             Value::Unknown(text) => return wrong(LineProblem::Unknown(text)),
             Value::Known(word) if !(&word >> width as usize).is_zero() => {
-                return wrong(LineProblem::TooWide {
-                    text: format!("{word:x}"),
-                    width,
-                });
+                return wrong(LineProblem::TooWide { text: format!("{word:x}"), width });
             }
             Value::Known(word) => *place = Some(word),
         }
@@ -93,12 +77,9 @@ pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, Me
     let missing = words.iter().position(Option::is_none);
     match missing {
         None => Ok(words.into_iter().flatten().collect()),
-        Some(address) => Err(MemoryError::Short {
-            path: path.to_owned(),
-            address,
-            found,
-            expected: depth,
-        }),
+        Some(address) => {
+            Err(MemoryError::Short { path: path.to_owned(), address, found, expected: depth })
+        }
     }
 }
 
@@ -108,9 +89,7 @@ fn value(token: &str) -> Option<Value> {
         hex_digits(&token.replace(is_unknown, "0"))?;
         return Some(Value::Unknown(token.replace('_', "")));
     }
-    UBig::from_str_radix(&hex_digits(token)?, 16)
-        .ok()
-        .map(Value::Known)
+    UBig::from_str_radix(&hex_digits(token)?, 16).ok().map(Value::Known)
 }
 
 /// The digits without their `_`; none where they are not a Verilog hex number, which begins with a
@@ -134,10 +113,7 @@ fn tokens<'a>(text: &'a str, path: &Path) -> Result<Vec<(u64, &'a str)>, MemoryE
                 rest = &rest[end + 2..];
                 continue;
             }
-            let comment = [rest.find("//"), rest.find("/*")]
-                .into_iter()
-                .flatten()
-                .min();
+            let comment = [rest.find("//"), rest.find("/*")].into_iter().flatten().min();
             let (code, after) = rest.split_at(comment.unwrap_or(rest.len()));
             tokens.extend(code.split_whitespace().map(|token| (line, token)));
             if !after.starts_with("/*") {

@@ -23,26 +23,12 @@ pub struct Header<'a> {
 /// # Errors
 /// When the writer does.
 pub fn write_header(out: &mut impl Write, header: &Header<'_>) -> io::Result<()> {
-    let Header {
-        title,
-        layout,
-        words,
-        command,
-    } = header;
+    let Header { title, layout, words, command } = header;
     let (digits, width) = (layout.digits(), layout.width);
     // A line break would end the comment, and the rest of the command would be read as numbers.
-    let command: String = command
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    writeln!(
-        out,
-        "// Blysk {title}, for $readmemh: {words} words of {width} bits"
-    )?;
-    writeln!(
-        out,
-        "// one word a line, {digits} hex digits, two's complement where signed"
-    )?;
+    let command: String = command.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    writeln!(out, "// Blysk {title}, for $readmemh: {words} words of {width} bits")?;
+    writeln!(out, "// one word a line, {digits} hex digits, two's complement where signed")?;
     for field in &layout.fields {
         let (msb, lsb, format) = (field.msb, field.lsb, field.format);
         writeln!(out, "//   [{msb}:{lsb}] {} {format}", field.name)?;

@@ -23,10 +23,7 @@ pub fn samples(design: &Design, count: u64) -> impl Iterator<Item = Sample> + '_
         let in_this_round = (count - index / depth * depth).min(depth);
         let row = spread(index % depth, in_this_round, depth);
         let x = grid_point(round * depth + row, rounds * depth, design);
-        Sample {
-            case: Case::at(rom, row as u32, x),
-            kind: Kind::Even,
-        }
+        Sample { case: Case::at(rom, row as u32, x), kind: Kind::Even }
     })
 }
 

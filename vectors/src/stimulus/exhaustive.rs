@@ -16,9 +16,7 @@ pub fn samples(design: &Design) -> impl Iterator<Item = Sample> + '_ {
     let rom = design.rom();
     let input = design.config().input;
     (0..1_u32 << rom.address_width()).flat_map(move |address| {
-        (input.min_bits()..=input.max_bits()).map(move |x| Sample {
-            case: Case::at(rom, address, x),
-            kind: Kind::Exhaustive,
-        })
+        (input.min_bits()..=input.max_bits())
+            .map(move |x| Sample { case: Case::at(rom, address, x), kind: Kind::Exhaustive })
     })
 }

@@ -67,11 +67,7 @@ impl<'a> Stimulus<'a> {
     /// How many cases there will be. (All addresses and x of a wide configuration exceed a `u64`.)
     #[must_use]
     pub fn len(&self) -> u128 {
-        let all = if self.exhaustive {
-            exhaustive::len(self.design)
-        } else {
-            0
-        };
+        let all = if self.exhaustive { exhaustive::len(self.design) } else { 0 };
         all + self.corners.samples().len() as u128 + u128::from(self.even) + u128::from(self.random)
     }
 
@@ -98,10 +94,6 @@ impl<'a> Stimulus<'a> {
             count => Box::new(random::samples(self.design, count, self.seed)),
         };
         let corners = self.corners.samples().iter().copied();
-        Box::new(
-            corners
-                .chain(even::samples(self.design, self.even))
-                .chain(random),
-        )
+        Box::new(corners.chain(even::samples(self.design, self.even)).chain(random))
     }
 }

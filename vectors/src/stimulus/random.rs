@@ -35,10 +35,7 @@ pub fn samples(design: &Design, count: u64, seed: u64) -> impl Iterator<Item = S
             None => any_address(design, &mut dice),
         };
         let x = any_x(design, address, &mut dice);
-        Sample {
-            case: Case::at(rom, address, x),
-            kind: Kind::Random,
-        }
+        Sample { case: Case::at(rom, address, x), kind: Kind::Random }
     })
 }
 
@@ -126,10 +123,7 @@ mod tests {
                 hits[dice.below(bound) as usize] += 1;
             }
             // 1000 expected, standard deviation below 32.
-            assert!(
-                hits.iter().all(|hits| (800..1200).contains(hits)),
-                "{bound}: {hits:?}"
-            );
+            assert!(hits.iter().all(|hits| (800..1200).contains(hits)), "{bound}: {hits:?}");
         }
     }
 

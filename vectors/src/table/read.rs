@@ -25,17 +25,11 @@ pub struct TableRow {
 /// # Errors
 /// Names the line and the column.
 pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
-    let in_file = |source| TableError::Csv {
-        path: path.to_owned(),
-        source,
-    };
+    let in_file = |source| TableError::Csv { path: path.to_owned(), source };
     let mut reader = csv::Reader::from_path(path).map_err(in_file)?;
     let columns = Columns::find(reader.headers().map_err(in_file)?, path)?;
     let row = |record: csv::Result<csv::StringRecord>| {
-        columns.row(&Line {
-            path,
-            record: record.map_err(in_file)?,
-        })
+        columns.row(&Line { path, record: record.map_err(in_file)? })
     };
     reader.records().map(row).collect()
 }
@@ -63,10 +57,7 @@ impl Columns {
                 .iter()
                 .position(|field| field == name)
                 .map(|place| Column { name, place })
-                .ok_or_else(|| TableError::Column {
-                    path: path.to_owned(),
-                    column: name,
-                })
+                .ok_or_else(|| TableError::Column { path: path.to_owned(), column: name })
         };
         Ok(Self {
             index: column("index")?,

@@ -26,13 +26,8 @@ impl<'a, W: Write> TableWriter<'a, W> {
     pub fn new(design: &'a Design, out: W) -> io::Result<Self> {
         let columns = register_columns(design.datapath());
         let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(&header(design.datapath(), &columns))?;
-        Ok(Self {
-            design,
-            columns,
-            csv,
-            line: csv::StringRecord::new(),
-        })
+        csv.write_record(header(design.datapath(), &columns))?;
+        Ok(Self { design, columns, csv, line: csv::StringRecord::new() })
     }
 
     /// Writes one case; `passage` is what each rank holds for it, first to last.
@@ -59,8 +54,7 @@ impl<'a, W: Write> TableWriter<'a, W> {
         for field in [
             index.to_string(),
             sample.kind.to_string(),
-            case.exponent
-                .map_or_else(String::new, |exponent| exponent.to_string()),
+            case.exponent.map_or_else(String::new, |exponent| exponent.to_string()),
             case.address.to_string(),
             case.x.to_string(),
             hex(case.x, format),
@@ -72,10 +66,7 @@ impl<'a, W: Write> TableWriter<'a, W> {
 
     fn output_fields(&mut self, sample: &Sample, last: &Signals) {
         let (input, output) = (self.design.config().input, self.design.config().output);
-        let power = sample
-            .case
-            .exponent
-            .map(|n| reference(n, sample.case.x, input));
+        let power = sample.case.exponent.map(|n| reference(n, sample.case.x, input));
         let error = power.map(|power| (real(last.intensity, output) - power) / output.ulp());
         for field in [
             last.intensity.to_string(),
@@ -95,9 +86,7 @@ impl<'a, W: Write> TableWriter<'a, W> {
     /// # Errors
     /// When the last of it cannot be written.
     pub fn finish(self) -> io::Result<W> {
-        self.csv
-            .into_inner()
-            .map_err(csv::IntoInnerError::into_error)
+        self.csv.into_inner().map_err(csv::IntoInnerError::into_error)
     }
 }
 
@@ -139,9 +128,5 @@ fn header(datapath: &Datapath, columns: &[(usize, Register)]) -> Vec<String> {
 }
 
 fn hex(bits: i64, format: QFormat) -> String {
-    format!(
-        "0x{:01$x}",
-        format.to_word(bits),
-        format.width().div_ceil(4) as usize
-    )
+    format!("0x{:01$x}", format.to_word(bits), format.width().div_ceil(4) as usize)
 }

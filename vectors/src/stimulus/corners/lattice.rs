@@ -71,11 +71,7 @@ mod tests {
         assert_eq!(thin.step, 64);
         assert_eq!(thin.points.first(), Some(&5));
         assert_eq!(thin.points.last(), Some(&1000));
-        assert!(
-            thin.points[1..thin.points.len() - 1]
-                .iter()
-                .all(|x| x % 64 == 0)
-        );
+        assert!(thin.points[1..thin.points.len() - 1].iter().all(|x| x % 64 == 0));
         assert_eq!(thin.points.len(), 17);
     }
 

@@ -78,18 +78,14 @@ fn in_rounds(
     let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
     let mut samples = Vec::new();
     for round in 0..longest {
-        let addresses: Vec<usize> = (0..lists.len())
-            .filter(|&address| lists[address].len() > round)
-            .collect();
+        let addresses: Vec<usize> =
+            (0..lists.len()).filter(|&address| lists[address].len() > round).collect();
         let left = limit - samples.len();
         let taken = addresses.len().min(left) as u64;
         samples.extend((0..taken).map(|index| {
             let address = addresses[spread(index, taken, addresses.len() as u64) as usize];
             let Corner { kind, x } = lists[address][round];
-            Sample {
-                case: Case::at(design.rom(), address as u32, x),
-                kind,
-            }
+            Sample { case: Case::at(design.rom(), address as u32, x), kind }
         }));
         if round == 0 {
             let left = limit - samples.len();
@@ -107,19 +103,10 @@ fn without_word(design: &Design) -> Vec<Sample> {
     let first = rom.depth() as u32;
     let last = (1_u32 << rom.address_width()) - 1;
     let mut seen = HashSet::new();
-    [
-        greatest,
-        greatest / 2,
-        0,
-        input.max_bits(),
-        input.min_bits(),
-    ]
-    .into_iter()
-    .flat_map(|x| [(first, x), (last, x)])
-    .filter(|&case| seen.insert(case))
-    .map(|(address, x)| Sample {
-        case: Case::at(rom, address, x),
-        kind: Kind::NoWord,
-    })
-    .collect()
+    [greatest, greatest / 2, 0, input.max_bits(), input.min_bits()]
+        .into_iter()
+        .flat_map(|x| [(first, x), (last, x)])
+        .filter(|&case| seen.insert(case))
+        .map(|(address, x)| Sample { case: Case::at(rom, address, x), kind: Kind::NoWord })
+        .collect()
 }

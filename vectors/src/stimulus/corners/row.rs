@@ -27,10 +27,7 @@ impl Effort {
     /// About half a million lattice points for the whole ROM.
     pub fn for_depth(depth: usize) -> Self {
         let points = ((1 << 18) / depth.max(1) as i64).clamp(32, 512);
-        Self {
-            points,
-            refine: depth <= 4096,
-        }
+        Self { points, refine: depth <= 4096 }
     }
 }
 
@@ -60,14 +57,8 @@ pub fn corners(design: &Design, address: u32, effort: Effort) -> Vec<Corner> {
 /// The corners that every row contributes first.
 fn head(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
     list.add(Kind::One, survey.greatest);
-    list.extend(survey.cut.map(|cut| Corner {
-        kind: Kind::Cut,
-        x: cut,
-    }));
-    list.extend(survey.cut.map(|cut| Corner {
-        kind: Kind::BesideCut,
-        x: cut - 1,
-    }));
+    list.extend(survey.cut.map(|cut| Corner { kind: Kind::Cut, x: cut }));
+    list.extend(survey.cut.map(|cut| Corner { kind: Kind::BesideCut, x: cut - 1 }));
     list.extend(survey.worst(&survey.polynomial, Kind::WorstPolynomial));
     list.add(Kind::Zero, 0);
     list.extend(survey.worst(&survey.below, Kind::WorstTail));
@@ -79,10 +70,7 @@ fn rest(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
     let input = survey.design.config().input;
     list.add(Kind::BesideOne, survey.greatest + 1);
     list.add(Kind::BesideZero, 1);
-    list.extend(survey.cut.map(|cut| Corner {
-        kind: Kind::BesideCut,
-        x: cut + 1,
-    }));
+    list.extend(survey.cut.map(|cut| Corner { kind: Kind::BesideCut, x: cut + 1 }));
     for x in [survey.q, survey.q - 1, survey.q + 1] {
         list.add(Kind::Q, x);
     }
@@ -104,11 +92,7 @@ struct List {
 impl List {
     fn new(design: &Design) -> Self {
         let input = design.config().input;
-        Self {
-            lowest: input.min_bits(),
-            highest: input.max_bits(),
-            corners: Vec::new(),
-        }
+        Self { lowest: input.min_bits(), highest: input.max_bits(), corners: Vec::new() }
     }
 
     fn add(&mut self, kind: Kind, x: i64) {
@@ -133,10 +117,7 @@ struct Part {
 
 impl Part {
     fn new(range: RangeInclusive<i64>, effort: Effort) -> Option<Self> {
-        (!range.is_empty()).then(|| Self {
-            lattice: Lattice::new(&range, effort.points),
-            range,
-        })
+        (!range.is_empty()).then(|| Self { lattice: Lattice::new(&range, effort.points), range })
     }
 }
 
@@ -158,15 +139,10 @@ impl<'a> Survey<'a> {
     fn new(design: &'a Design, address: u32, effort: Effort) -> Self {
         let datapath = design.datapath();
         let greatest = datapath.front_end().greatest;
-        let cut = datapath
-            .stages()
-            .map(|_| datapath.row(address).get(FieldName::Cut));
+        let cut = datapath.stages().map(|_| datapath.row(address).get(FieldName::Cut));
         let from = cut.unwrap_or(greatest + 1);
         let fraction = design.config().input.fraction_bits();
-        let p = design
-            .rows()
-            .get(address as usize)
-            .map_or(0.0, |row| row.epicentre);
+        let p = design.rows().get(address as usize).map_or(0.0, |row| row.epicentre);
         // p lies in (0, 1), so it rounds to 0..=one.
         let p = round_scaled(p, fraction, Rounding::NearestEven).unwrap_or(0) as i64;
         Self {
@@ -241,10 +217,7 @@ impl<'a> Survey<'a> {
             }
         }
         let corner = |(line, nearest): (&ties::Line, Option<(f64, i64)>)| {
-            nearest.map(|(_, x)| Corner {
-                kind: Kind::Tie(line.register()),
-                x,
-            })
+            nearest.map(|(_, x)| Corner { kind: Kind::Tie(line.register()), x })
         };
         lines.iter().zip(nearest).filter_map(corner).collect()
     }
@@ -258,21 +231,11 @@ impl<'a> Survey<'a> {
         let (mut zero, mut beyond) = (0, *part.range.end());
         while beyond - zero > 1 {
             let middle = zero + (beyond - zero) / 2;
-            if quotient(middle) == 0 {
-                zero = middle
-            } else {
-                beyond = middle
-            }
+            if quotient(middle) == 0 { zero = middle } else { beyond = middle }
         }
-        let mut corners = vec![Corner {
-            kind: Kind::QuotientZero,
-            x: zero,
-        }];
+        let mut corners = vec![Corner { kind: Kind::QuotientZero, x: zero }];
         let greatest = self.best(part, quotient);
-        corners.extend(greatest.map(|x| Corner {
-            kind: Kind::QuotientGreatest,
-            x,
-        }));
+        corners.extend(greatest.map(|x| Corner { kind: Kind::QuotientGreatest, x }));
         corners
     }
 
@@ -288,10 +251,7 @@ impl<'a> Survey<'a> {
                 }
             }
         }
-        registers
-            .iter()
-            .flat_map(|extreme| self.ends(extreme))
-            .collect()
+        registers.iter().flat_map(|extreme| self.ends(extreme)).collect()
     }
 
     fn registers(&self) -> Vec<Extreme> {
@@ -301,11 +261,7 @@ impl<'a> Survey<'a> {
             let computed = datapath.registers(rank).into_iter().filter(|register| {
                 register.computed && !matches!(register.name, "region" | "status")
             });
-            list.extend(computed.map(|register| Extreme {
-                rank,
-                register,
-                ends: None,
-            }));
+            list.extend(computed.map(|register| Extreme { rank, register, ends: None }));
         }
         list
     }
@@ -321,21 +277,12 @@ impl<'a> Survey<'a> {
         let (rank, name) = (extreme.rank, extreme.register.name);
         let refined = |x, sign: i128| {
             let parts = [&self.polynomial, &self.below];
-            let part = parts
-                .into_iter()
-                .flatten()
-                .find(|part| part.range.contains(&x));
+            let part = parts.into_iter().flatten().find(|part| part.range.contains(&x));
             part.map_or(x, |part| self.refined(x, part, |x| sign * bits(x)))
         };
         vec![
-            Corner {
-                kind: Kind::Least(rank, name),
-                x: refined(least, -1),
-            },
-            Corner {
-                kind: Kind::Greatest(rank, name),
-                x: refined(greatest, 1),
-            },
+            Corner { kind: Kind::Least(rank, name), x: refined(least, -1) },
+            Corner { kind: Kind::Greatest(rank, name), x: refined(greatest, 1) },
         ]
     }
 }

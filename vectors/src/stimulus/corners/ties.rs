@@ -16,11 +16,7 @@ pub enum Line {
     /// u = (1 − x)·2^e.
     Variable { one: i64, up: u32, drop: u32 },
     /// A multiply-add with all its bits, of which the real one drops `drop`.
-    MultiplyAdd {
-        register: &'static str,
-        exact: MultiplyAdd,
-        drop: u32,
-    },
+    MultiplyAdd { register: &'static str, exact: MultiplyAdd, drop: u32 },
     /// The quotient, of which a guard bit and a sticky bit are dropped.
     Quotient,
 }
@@ -28,10 +24,7 @@ pub enum Line {
 /// Every line of the data path that rounds, the one nearest to the output first.
 pub fn lines(datapath: &Datapath) -> Vec<Line> {
     let mut lines = Vec::new();
-    let stages = datapath
-        .stages()
-        .map(|stages| stages.as_slice())
-        .unwrap_or_default();
+    let stages = datapath.stages().map(|stages| stages.as_slice()).unwrap_or_default();
     for (index, stage) in stages.iter().enumerate().rev() {
         let fractions = stage_fractions(datapath.formats(), index);
         lines.extend(exact_line(["t1", "t2", "t3"][index], stage, fractions));
@@ -50,11 +43,7 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
     if let Some(Variable::U { up, drop, .. }) = front_end.variable
         && drop > 0
     {
-        lines.push(Line::Variable {
-            one: front_end.one,
-            up,
-            drop,
-        });
+        lines.push(Line::Variable { one: front_end.one, up, drop });
     }
     lines
 }
@@ -78,16 +67,9 @@ fn exact_line(
 ) -> Option<Line> {
     let (fractions, drop) = (fractions?, line.dropped_bits());
     let result = (fractions.multiplicand + fractions.variable).max(fractions.addend);
-    let whole = Fractions {
-        result,
-        ..fractions
-    };
+    let whole = Fractions { result, ..fractions };
     let exact = MultiplyAdd::aligned(whole, line.subtracts(), Rounding::Floor);
-    (drop > 0).then_some(Line::MultiplyAdd {
-        register,
-        exact,
-        drop,
-    })
+    (drop > 0).then_some(Line::MultiplyAdd { register, exact, drop })
 }
 
 impl Line {
@@ -116,11 +98,7 @@ impl Line {
                 let s = i128::from(one - last.x);
                 from_half(s << (last.row.shift() + up), *drop)
             }
-            Self::MultiplyAdd {
-                register,
-                exact,
-                drop,
-            } => {
+            Self::MultiplyAdd { register, exact, drop } => {
                 let operands = operands(register, last);
                 let [multiplicand, variable, addend] = operands.map(i128::from);
                 from_half(exact.apply(multiplicand, variable, addend), *drop)
@@ -142,11 +120,7 @@ fn operands(register: &str, last: &Signals) -> [i64; 3] {
         "t1" => [field(FieldName::C3), last.v, field(FieldName::C2)],
         "t2" => [last.t1, last.v, field(FieldName::C1)],
         "t3" => [last.t2, last.v, field(FieldName::C0)],
-        _ => [
-            field(FieldName::TailB),
-            last.tail_x,
-            field(FieldName::TailA),
-        ],
+        _ => [field(FieldName::TailB), last.tail_x, field(FieldName::TailA)],
     }
 }
 

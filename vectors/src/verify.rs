@@ -1,0 +1,194 @@
+//! Reading a bundle back, and checking that it is the one that was written.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use dashu_int::UBig;
+use thiserror::Error;
+
+use crate::checksum::checksum;
+use crate::manifest::{EXPECTED, FORMAT_VERSION, MANIFEST, Manifest, ROM, STIMULUS, TABLE};
+use crate::memory_file::{MemoryError, read_words};
+use crate::table::{TableError, TableRow, read_table};
+
+/// Why a bundle is refused.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// A file is missing or cannot be read.
+    #[error("cannot read {}: {source}; write the bundle again", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The manifest is not one.
+    #[error("{} is not a manifest: {source}", path.display())]
+    Manifest {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong, with line and column.
+        source: serde_json::Error,
+    },
+    /// The manifest is of another version.
+    #[error("{} has format version {found}; this tool reads {FORMAT_VERSION}", path.display())]
+    Version {
+        /// The manifest.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// The manifest does not vouch for a file of the bundle.
+    #[error("{} does not list {name}", path.display())]
+    NotListed {
+        /// The manifest.
+        path: PathBuf,
+        /// The file.
+        name: &'static str,
+    },
+    /// A file is not the one that was written.
+    #[error(
+        "{} is not the file that was written: its SHA-256 is {found}, the manifest says {expected}; \
+         write the bundle again", path.display()
+    )]
+    Checksum {
+        /// The file.
+        path: PathBuf,
+        /// Its checksum.
+        found: String,
+        /// The manifest's.
+        expected: String,
+    },
+    /// A memory file.
+    #[error(transparent)]
+    Memory(#[from] MemoryError),
+    /// The table.
+    #[error(transparent)]
+    Table(#[from] TableError),
+    /// A number of lines or words is not the manifest's.
+    #[error("{} has {found} vectors, the manifest says {expected}", path.display())]
+    Count {
+        /// The file.
+        path: PathBuf,
+        /// Vectors found.
+        found: u64,
+        /// Vectors by the manifest.
+        expected: u64,
+    },
+    /// The bundle has no vectors, so it would check nothing.
+    #[error("{} says that there are no vectors; a bundle has at least 1", .0.display())]
+    Empty(PathBuf),
+    /// A memory file and the table say different things.
+    #[error("{}: word {index} is {found:x}, but {TABLE} says {expected:x}", path.display())]
+    Disagree {
+        /// The memory file.
+        path: PathBuf,
+        /// The word, counted from 0.
+        index: usize,
+        /// The word.
+        found: UBig,
+        /// The word by the table.
+        expected: u128,
+    },
+}
+
+/// A bundle read back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verified {
+    /// Its manifest.
+    pub manifest: Manifest,
+    /// Its cases, with what is expected of them.
+    pub vectors: Vec<TableRow>,
+    /// Its ROM image.
+    pub rom: Vec<UBig>,
+}
+
+/// Reads every file of the bundle in `directory` and checks it: that the checksums and counts are
+/// the manifest's, and that memory files and table say the same.
+///
+/// # Errors
+/// Names the file and what is wrong with it.
+pub fn verify(directory: impl AsRef<Path>) -> Result<Verified, VerifyError> {
+    let directory = directory.as_ref();
+    let manifest = read_manifest(directory)?;
+    for name in [ROM, STIMULUS, EXPECTED, TABLE] {
+        check_file(directory, &manifest, name)?;
+    }
+    let vectors = read_table(&directory.join(TABLE))?;
+    if vectors.len() as u64 != manifest.counts.vectors {
+        let (found, expected) = (vectors.len() as u64, manifest.counts.vectors);
+        return Err(VerifyError::Count { path: directory.join(TABLE), found, expected });
+    }
+    let words = &manifest.words;
+    compare(directory, STIMULUS, words.stimulus.width, &vectors, |row| {
+        words.stimulus.pack(&[row.case.address.into(), row.case.x])
+    })?;
+    compare(directory, EXPECTED, words.expected.width, &vectors, |row| {
+        words.expected.pack(&[row.expected.status.into(), row.expected.intensity])
+    })?;
+    let depth = manifest.counts.rom_words as usize;
+    let rom = read_words(&directory.join(ROM), words.rom.width, depth)?;
+    Ok(Verified { manifest, vectors, rom })
+}
+
+fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
+    let path = directory.join(MANIFEST);
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(source) => return Err(VerifyError::Io { path, source }),
+    };
+    // The version first: another version may well have other fields.
+    let manifest = serde_json::from_str::<serde_json::Value>(&text).and_then(|value| {
+        let version = value.get("format_version").and_then(serde_json::Value::as_u64);
+        match version.and_then(|version| u32::try_from(version).ok()) {
+            Some(found) if found != FORMAT_VERSION => Ok(Err(found)),
+            _ => serde_json::from_str(&text).map(Ok),
+        }
+    });
+    match manifest {
+        Err(source) => Err(VerifyError::Manifest { path, source }),
+        Ok(Err(found)) => Err(VerifyError::Version { path, found }),
+        Ok(Ok(Manifest { counts, .. })) if counts.vectors == 0 => Err(VerifyError::Empty(path)),
+        Ok(Ok(manifest)) => Ok(manifest),
+    }
+}
+
+fn check_file(
+    directory: &Path,
+    manifest: &Manifest,
+    name: &'static str,
+) -> Result<(), VerifyError> {
+    let path = directory.join(name);
+    let Some(expected) = manifest.files.get(name) else {
+        return Err(VerifyError::NotListed { path: directory.join(MANIFEST), name });
+    };
+    match File::open(&path).and_then(checksum) {
+        Err(source) => Err(VerifyError::Io { path, source }),
+        Ok(found) if found != *expected => Err(VerifyError::Checksum {
+            path,
+            found: found.sha256,
+            expected: expected.sha256.clone(),
+        }),
+        Ok(_) => Ok(()),
+    }
+}
+
+fn compare(
+    directory: &Path,
+    name: &str,
+    width: u32,
+    vectors: &[TableRow],
+    word: impl Fn(&TableRow) -> u128,
+) -> Result<(), VerifyError> {
+    let path = directory.join(name);
+    let found = read_words(&path, width, vectors.len())?;
+    for (index, (found, row)) in found.into_iter().zip(vectors).enumerate() {
+        let expected = word(row);
+        if found != UBig::from(expected) {
+            return Err(VerifyError::Disagree { path, index, found, expected });
+        }
+    }
+    Ok(())
+}
