@@ -1,3 +1,7 @@
 //! The `blysk` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    sim::cmd::main()
+}

@@ -10,8 +10,7 @@
 
 use hw_model::datapath::Block;
 use hw_model::design::Design;
-use hw_model::highlight::phong;
-use hw_model::quantise::real;
+use hw_model::highlight::{phong, phong_at_s};
 
 /// Samples that go through the pipeline together: their arrays stay in the first-level cache.
 const BLOCK: usize = 1024;
@@ -254,11 +253,5 @@ impl Powers {
 #[must_use]
 pub fn input_quantisation(design: &Design, exponent: f64) -> f64 {
     let half_ulp = 0.5 * design.config().input.ulp();
-    1.0 - hw_model::highlight::phong_at_s(exponent, half_ulp)
-}
-
-/// The real x of some bits.
-#[must_use]
-pub fn real_x(design: &Design, bits: i64) -> f64 {
-    real(bits, design.config().input)
+    1.0 - phong_at_s(exponent, half_ulp)
 }

@@ -1,0 +1,79 @@
+//! `--preset NAME` and `--config FILE`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use clap::Args;
+use hw_model::config::Config;
+use hw_model::design::Design;
+use hw_model::presets;
+
+/// Which configuration.
+#[derive(Args)]
+#[group(required = true, multiple = false)]
+pub(super) struct Configuration {
+    /// A preset; `blysk presets` lists them.
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+}
+
+impl Configuration {
+    /// The hardware of the configuration.
+    pub(super) fn design(&self) -> anyhow::Result<Design> {
+        let (config, origin) = self.load()?;
+        Design::new(config).with_context(|| origin)
+    }
+
+    /// The option as it would be typed, for the headers of generated files.
+    pub(super) fn option(&self) -> String {
+        match (&self.preset, &self.config) {
+            (Some(name), _) => format!("--preset {}", quoted(name)),
+            (None, Some(path)) => format!("--config {}", quoted(&path.display().to_string())),
+            (None, None) => String::new(),
+        }
+    }
+
+    fn load(&self) -> anyhow::Result<(Config, String)> {
+        match (&self.preset, &self.config) {
+            (Some(name), _) => {
+                let preset = find_preset(name)?;
+                Ok((preset.config()?, format!("preset {name}")))
+            }
+            (None, Some(path)) => {
+                Ok((load_config(path)?, path.display().to_string()))
+            }
+            // clap demands one of the two.
+            (None, None) => bail!("say --preset NAME or --config FILE"),
+        }
+    }
+}
+
+/// The configuration in a file.
+pub(super) fn load_config(path: &Path) -> anyhow::Result<Config> {
+    let shown = path.display();
+    let text = fs::read_to_string(path)
+        .with_context(|| format!("cannot read the configuration {shown}"))?;
+    Config::from_json(&text).with_context(|| shown.to_string())
+}
+
+/// The preset of this name.
+pub(super) fn find_preset(name: &str) -> anyhow::Result<presets::Preset> {
+    presets::find(name).with_context(|| {
+        let names: Vec<&str> = presets::ALL.iter().map(|preset| preset.name).collect();
+        format!("there is no preset {name:?}; the presets are {}", names.join(", "))
+    })
+}
+
+/// An argument as a shell takes it.
+fn quoted(argument: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "._-+=/,:@%".contains(c);
+    if !argument.is_empty() && argument.chars().all(plain) {
+        argument.to_owned()
+    } else {
+        format!("'{}'", argument.replace('\'', r"'\''"))
+    }
+}

@@ -1,0 +1,92 @@
+//! The `blysk` command line: the only place that knows clap and paths.
+//!
+//! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold; 2 a usage,
+//! configuration, input or output error.
+
+mod coefficients;
+mod configuration;
+mod presets;
+mod report;
+mod rom;
+mod simulate;
+mod table;
+mod vectors;
+
+use std::io::{self, BufWriter, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Bit-accurate, cycle-accurate model of a specular-highlight shading pipeline.
+#[derive(Parser)]
+#[command(name = "blysk", version, about, max_term_width = 100)]
+#[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Measure the error for every exponent and judge it against a bound.
+    Report(report::Args),
+    /// Write test vectors for an RTL simulation.
+    Vectors(vectors::Args),
+    /// Run a stimulus through the clocked pipeline; record every register, every cycle.
+    Simulate(simulate::Args),
+    /// Print the real coefficients of a method.
+    Coefficients(coefficients::Args),
+    /// Print the ROM: layout and words.
+    Rom(rom::Args),
+    /// List the presets, or print one as a starting point for a configuration.
+    Presets(presets::Args),
+}
+
+/// What a command found.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Outcome {
+    /// Everything asked for was done, and holds where something was checked.
+    Good,
+    /// A bound does not hold.
+    BoundFails,
+}
+
+/// Standard output, buffered.
+type Out = BufWriter<io::StdoutLock<'static>>;
+
+/// Parses the command line, runs the command, and reports its errors.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let mut out = BufWriter::new(io::stdout().lock());
+    let result = run(cli.command, &mut out)
+        .and_then(|outcome| out.flush().map(|()| outcome).map_err(Into::into));
+    match result {
+        Ok(Outcome::Good) => ExitCode::SUCCESS,
+        Ok(Outcome::BoundFails) => ExitCode::from(1),
+        // Whoever reads the output (`| head`) has seen enough.
+        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            // A closed standard error leaves nobody to tell.
+            let _ = writeln!(io::stderr(), "error: {error:#}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Report(args) => report::run(&args, out),
+        Command::Vectors(args) => vectors::run(&args, out),
+        Command::Simulate(args) => simulate::run(&args, out),
+        Command::Coefficients(args) => coefficients::run(&args, out),
+        Command::Rom(args) => rom::run(&args, out),
+        Command::Presets(args) => presets::run(&args, out),
+    }
+}
+
+fn is_broken_pipe(error: &anyhow::Error) -> bool {
+    error
+        .downcast_ref::<io::Error>()
+        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}

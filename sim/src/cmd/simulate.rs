@@ -1,0 +1,150 @@
+//! `blysk simulate`: a stimulus through the clocked pipeline.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::bail;
+use clap::Args as ClapArgs;
+use hw_model::datapath::Datapath;
+use vectors::{Cycle as StimulusLine, WholeFile, read_stimulus};
+
+use super::configuration::Configuration;
+use super::table::{Cell, Format, Rows};
+use super::{Out, Outcome};
+use crate::pipeline::Pipeline;
+use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus};
+use crate::trace::TraceWriter;
+use crate::waves::WaveWriter;
+
+/// Run a stimulus through the clocked pipeline; record every register, every cycle.
+///
+/// The stimulus is a CSV file with a line for each cycle: columns n, x (or x_bits), and optionally
+/// valid, ready, reset (default 1, 1, 0). A request that is not taken stays presented, and those after
+/// it wait; after the last line the pipeline runs with ready high until it is empty.
+#[derive(ClapArgs)]
+#[command(
+    after_help = "Example: blysk simulate --preset paper --stimulus in.csv --trace trace.csv --waves out.vcd"
+)]
+pub(super) struct Args {
+    #[command(flatten)]
+    configuration: Configuration,
+    /// The stimulus.
+    #[arg(long, value_name = "FILE")]
+    stimulus: PathBuf,
+    /// Write every port and register of every cycle to this CSV file.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Write waves to this VCD file.
+    #[arg(long, value_name = "FILE")]
+    waves: Option<PathBuf>,
+    /// Write trace.csv and waves.vcd to this directory.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["trace", "waves"])]
+    out: Option<PathBuf>,
+    /// How to print the counts.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let design = args.configuration.design()?;
+    let datapath = design.datapath();
+    let stimulus = read_stimulus(&args.stimulus, design.rom(), design.config().input)?;
+    let (trace, waves) = match &args.out {
+        None => (args.trace.clone(), args.waves.clone()),
+        Some(directory) => {
+            std::fs::create_dir_all(directory)
+                .map_err(|error| anyhow::anyhow!("cannot make {}: {error}", directory.display()))?;
+            (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd")))
+        }
+    };
+    if trace.is_some() && trace == waves {
+        bail!("--trace and --waves name the same file; give each its own");
+    }
+    // Nothing gets its name before the run is over.
+    let mut trace = trace.map(WholeFile::create).transpose()?;
+    let mut waves = waves.map(WholeFile::create).transpose()?;
+    let name = &design.config().name;
+    let mut recorders = Recorders::new(trace.as_mut(), waves.as_mut(), name, datapath)?;
+    let counts = run_stimulus(
+        &mut Pipeline::new(datapath),
+        stimulus.iter().map(|line| Ok(cycle(line))),
+        |cycle| recorders.cycle(cycle),
+    )?;
+    recorders.finish(counts.cycles)?;
+    for file in [trace, waves].into_iter().flatten() {
+        file.commit()?;
+    }
+    print(&counts, datapath.rank_count(), args.format, out)?;
+    Ok(Outcome::Good)
+}
+
+fn cycle(line: &StimulusLine) -> StimulusCycle {
+    let request = line.valid.then_some((line.case.address, line.case.x));
+    StimulusCycle { request, ready: line.ready, reset: line.reset }
+}
+
+/// What records a run.
+struct Recorders<'a> {
+    trace: Option<TraceWriter<&'a mut WholeFile>>,
+    waves: Option<WaveWriter<&'a mut WholeFile>>,
+}
+
+impl<'a> Recorders<'a> {
+    fn new(
+        trace: Option<&'a mut WholeFile>,
+        waves: Option<&'a mut WholeFile>,
+        name: &str,
+        datapath: &Datapath,
+    ) -> anyhow::Result<Self> {
+        let trace = trace.map(|file| TraceWriter::new(file, datapath)).transpose()?;
+        let waves = waves.map(|file| WaveWriter::new(file, name, datapath)).transpose()?;
+        Ok(Self { trace, waves })
+    }
+
+    fn cycle(&mut self, cycle: &Cycle<'_>) -> anyhow::Result<()> {
+        if let Some(trace) = &mut self.trace {
+            trace.cycle(cycle)?;
+        }
+        if let Some(waves) = &mut self.waves {
+            waves.cycle(cycle)?;
+        }
+        Ok(())
+    }
+
+    fn finish(self, cycles: u64) -> anyhow::Result<()> {
+        if let Some(trace) = self.trace {
+            trace.finish()?;
+        }
+        if let Some(waves) = self.waves {
+            waves.finish(cycles)?;
+        }
+        Ok(())
+    }
+}
+
+fn print(counts: &Counts, latency: usize, format: Format, out: &mut Out) -> anyhow::Result<()> {
+    let integer = |count: u64| Cell::Integer(count as i64);
+    let values = [
+        ("cycles", integer(counts.cycles)),
+        ("requests", integer(counts.requests)),
+        ("results", integer(counts.results)),
+        ("lost_to_reset", integer(counts.lost_to_reset)),
+        ("stalls", integer(counts.stalls)),
+        ("bubbles", integer(counts.bubbles)),
+        ("latency", Cell::Integer(latency as i64)),
+        ("initiation_interval", counts.initiation_interval().into()),
+        ("cycles_per_million_results", counts.cycles_per_million().into()),
+    ];
+    if format == Format::Table {
+        let mut rows = Rows::new(&["count", "value"]);
+        for (name, value) in values {
+            rows.push(vec![Cell::from(name.replace('_', " ")), value]);
+        }
+        return rows.print(out, format, 9);
+    }
+    let (columns, cells): (Vec<&str>, Vec<Cell>) = values.into_iter().unzip();
+    let mut rows = Rows::new(&columns);
+    rows.push(cells);
+    rows.print(out, format, 17)?;
+    Ok(out.flush()?)
+}

@@ -1,0 +1,188 @@
+//! The clocked pipeline against the untimed model, under any interleaving of valid, ready and reset.
+
+use std::convert::Infallible;
+
+use hw_model::config::Config;
+use hw_model::datapath::{Datapath, Status};
+use hw_model::design::Design;
+use hw_model::presets;
+use proptest::prelude::*;
+use sim::pipeline::{Inputs, Outputs, Pipeline};
+use sim::run::{StimulusCycle, run};
+
+fn design(preset: &str) -> Design {
+    Design::new(presets::find(preset).unwrap().config().unwrap()).unwrap()
+}
+
+/// Small and quick to make, with every kind of rank.
+fn small() -> Design {
+    let json = r#"{"name": "small", "method": "hermite", "exponents": "1..=8", "input": "Q2.7",
+        "output": "UQ1.6", "tail": "rational", "form": "power", "quotient_bits_per_stage": 3}"#;
+    Design::new(Config::from_json(json).unwrap()).unwrap()
+}
+
+/// A request that stays presented until it is taken, driven with any pattern of gaps; everything that
+/// the pipeline took and has not delivered, in order.
+struct Bench<'a> {
+    pipeline: Pipeline<'a>,
+    in_flight: Vec<(u32, i64)>,
+    delivered: usize,
+}
+
+impl<'a> Bench<'a> {
+    fn new(datapath: &'a Datapath) -> Self {
+        Self { pipeline: Pipeline::new(datapath), in_flight: Vec::new(), delivered: 0 }
+    }
+
+    /// One cycle; true when the request was taken. Checks what must hold in every cycle.
+    fn cycle(&mut self, request: Option<(u32, i64)>, out_ready: bool, reset: bool) -> bool {
+        let (address, x) = request.unwrap_or((u32::MAX, -1));
+        let inputs = Inputs { reset, in_valid: request.is_some(), address, x, out_ready };
+        let outputs = self.pipeline.combinational(&inputs);
+        self.outputs_do_not_depend_on_ready(&inputs, &outputs);
+        let before: Vec<_> = self.pipeline.ranks().to_vec();
+        if outputs.out_valid && !reset {
+            let (address, x) = self.in_flight[0];
+            let wanted = self.pipeline.datapath().evaluate(address, x);
+            assert_eq!((outputs.intensity, outputs.status), (wanted.intensity, wanted.status));
+            if out_ready {
+                self.in_flight.remove(0);
+                self.delivered += 1;
+            }
+        }
+        self.pipeline.clock();
+        let last = before.len() - 1;
+        if before[last].valid && !out_ready && !reset {
+            assert_eq!(self.pipeline.ranks()[last], before[last], "a stalled result changed");
+        }
+        if reset {
+            self.in_flight.clear();
+            assert!(self.pipeline.is_empty(), "reset leaves nothing in flight");
+            assert!(!outputs.in_ready, "nothing is taken during reset");
+        }
+        let taken = inputs.in_valid && outputs.in_ready;
+        if taken {
+            self.in_flight.push((address, x));
+        }
+        let held = self.pipeline.ranks().iter().filter(|rank| rank.valid).count();
+        assert_eq!(held, self.in_flight.len(), "requests in flight");
+        taken
+    }
+
+    /// `valid` is a function of registers alone.
+    fn outputs_do_not_depend_on_ready(&self, inputs: &Inputs, outputs: &Outputs) {
+        let other = Inputs { out_ready: !inputs.out_ready, in_valid: !inputs.in_valid, ..*inputs };
+        let others = self.pipeline.clone().combinational(&other);
+        assert_eq!(others.out_valid, outputs.out_valid);
+        assert_eq!(others.intensity, outputs.intensity);
+    }
+}
+
+/// What one cycle does: present (or not) this request, take results, reset (rarely).
+fn cycles() -> impl Strategy<Value = Vec<(bool, u32, i64, bool, bool)>> {
+    let cycle = (any::<bool>(), 0_u32..10, -256_i64..256, any::<bool>(), prop::bool::weighted(0.02));
+    prop::collection::vec(cycle, 1..200)
+}
+
+proptest! {
+    #[test]
+    fn no_interleaving_loses_doubles_or_changes_a_result(cycles in cycles()) {
+        let design = small();
+        let mut bench = Bench::new(design.datapath());
+        let mut waiting = None;
+        let (mut taken, mut lost) = (0, 0);
+        for (present, address, x, ready, reset) in cycles {
+            if waiting.is_none() && present {
+                waiting = Some((address, x));
+            }
+            let in_flight = bench.in_flight.len();
+            if bench.cycle(waiting, ready, reset) {
+                waiting = None;
+                taken += 1;
+            }
+            if reset {
+                lost += in_flight;
+            }
+        }
+        for _ in 0..design.datapath().rank_count() {
+            bench.cycle(None, true, false);
+        }
+        prop_assert_eq!(bench.delivered + lost, taken);
+        prop_assert!(bench.in_flight.is_empty());
+    }
+}
+
+#[test]
+fn the_latency_is_the_number_of_ranks_and_a_result_comes_every_cycle() {
+    for preset in presets::ALL {
+        let design = design(preset.name);
+        let datapath = design.datapath();
+        let latency = datapath.rank_count();
+        let mut pipeline = Pipeline::new(datapath);
+        let one = design.config().input.one();
+        for cycle in 0..latency + 20 {
+            let x = one - cycle as i64;
+            let inputs =
+                Inputs { in_valid: true, address: 7, x, out_ready: true, ..Inputs::default() };
+            let outputs = pipeline.tick(&inputs);
+            assert!(outputs.in_ready);
+            assert_eq!(outputs.out_valid, cycle >= latency, "{} cycle {cycle}", preset.name);
+            if outputs.out_valid {
+                let wanted = datapath.evaluate(7, one - (cycle - latency) as i64);
+                assert_eq!(outputs.intensity, wanted.intensity);
+            }
+        }
+    }
+}
+
+#[test]
+fn bubbles_collapse_behind_a_stall() {
+    let design = small();
+    let mut pipeline = Pipeline::new(design.datapath());
+    let latency = design.datapath().rank_count();
+    // Every other cycle a request, never ready: all ranks fill up, then in_ready falls.
+    let mut taken = 0;
+    for cycle in 0..4 * latency {
+        let in_valid = cycle % 2 == 0;
+        let outputs = pipeline.tick(&Inputs { in_valid, x: 100, ..Inputs::default() });
+        taken += usize::from(in_valid && outputs.in_ready);
+    }
+    assert_eq!(taken, latency);
+    assert!(pipeline.ranks().iter().all(|rank| rank.valid));
+    let full = Inputs { in_valid: true, out_ready: true, ..Inputs::default() };
+    assert!(pipeline.tick(&full).in_ready, "a full pipeline takes one as it delivers one");
+}
+
+#[test]
+fn an_exponent_without_a_word_is_a_flag_and_zero() {
+    let design = design("paper");
+    let address = design.rom().address_of(300.0);
+    let last = design.datapath().evaluate(address, design.config().input.one());
+    assert_eq!((last.intensity, last.status), (0, Status::NO_WORD));
+}
+
+#[test]
+fn a_run_counts_what_happened() {
+    let design = small();
+    let latency = design.datapath().rank_count() as u64;
+    let cycle = |request, ready| Ok::<_, Infallible>(StimulusCycle { request, ready, reset: false });
+    let one = Some((0, 128));
+    // Three requests with a bubble between the second and the third, then results wait two cycles.
+    let mut stimulus = vec![cycle(one, true), cycle(one, true), cycle(None, true), cycle(one, true)];
+    for index in 4..latency + 2 {
+        stimulus.push(cycle(None, index < latency));
+    }
+    let mut seen = 0;
+    let counts = run(&mut Pipeline::new(design.datapath()), stimulus, |cycle| {
+        assert_eq!(cycle.index, seen);
+        seen += 1;
+        Ok(())
+    });
+    let Ok(counts) = counts;
+    assert_eq!((counts.requests, counts.results, counts.lost_to_reset), (3, 3, 0));
+    assert_eq!((counts.bubbles, counts.stalls), (1, 2));
+    assert_eq!(counts.initiation_interval(), Some(1.5));
+    // The stall of two cycles swallows the bubble: three results in a row after latency + 2.
+    assert_eq!(counts.cycles, latency + 2 + 3);
+    assert_eq!(seen, counts.cycles);
+}
