@@ -173,10 +173,7 @@ pub enum ConfigError {
 }
 
 fn wrong<T>(field: &'static str, problem: impl Into<String>) -> Result<T, ConfigError> {
-    Err(ConfigError::Field {
-        field,
-        problem: problem.into(),
-    })
+    Err(ConfigError::Field { field, problem: problem.into() })
 }
 
 impl Config {
@@ -204,10 +201,8 @@ impl Config {
     /// # Errors
     /// When not 0 < G < Q < 1.
     pub fn levels(&self) -> Result<Levels, ConfigError> {
-        Levels::new(self.q, self.g).map_err(|error| ConfigError::Field {
-            field: "q, g",
-            problem: error.to_string(),
-        })
+        Levels::new(self.q, self.g)
+            .map_err(|error| ConfigError::Field { field: "q, g", problem: error.to_string() })
     }
 
     /// Checks what can be checked without deriving widths.
@@ -218,10 +213,7 @@ impl Config {
         self.levels()?;
         let named = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
         if self.name.is_empty() || !self.name.chars().all(named) {
-            return wrong(
-                "name",
-                "use letters, digits, - and _; it becomes part of file names",
-            );
+            return wrong("name", "use letters, digits, - and _; it becomes part of file names");
         }
         self.check_method()?;
         self.check_formats()?;
@@ -229,10 +221,7 @@ impl Config {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }
         if !(self.error_budget_ulp > 0.0 && self.error_budget_ulp <= 1e6) {
-            return wrong(
-                "error_budget_ulp",
-                "use a number above 0 (1.0 is usual), at most 1e6",
-            );
+            return wrong("error_budget_ulp", "use a number above 0 (1.0 is usual), at most 1e6");
         }
         Ok(())
     }

@@ -78,9 +78,7 @@ pub enum ExponentsError {
 /// When the text is not such a number; the message says what would be.
 pub fn parse_exponent(text: &str) -> Result<f64, ExponentsError> {
     let text = text.trim();
-    let exponent: f64 = text
-        .parse()
-        .map_err(|_| ExponentsError::NotANumber(text.to_owned()))?;
+    let exponent: f64 = text.parse().map_err(|_| ExponentsError::NotANumber(text.to_owned()))?;
     checked(exponent).map_err(|_| ExponentsError::OutOfRange(text.to_owned()))
 }
 
@@ -237,10 +235,7 @@ impl fmt::Display for Exponents {
 /// How many of the first exponents are consecutive integers.
 fn integer_run(list: &[f64]) -> usize {
     let first = list[0];
-    list.iter()
-        .enumerate()
-        .take_while(|&(i, &n)| n.fract() == 0.0 && n == first + i as f64)
-        .count()
+    list.iter().enumerate().take_while(|&(i, &n)| n.fract() == 0.0 && n == first + i as f64).count()
 }
 
 impl TryFrom<String> for Exponents {

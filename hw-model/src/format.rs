@@ -68,12 +68,7 @@ impl QFormat {
     /// # Errors
     /// When the width is not 1 to 63 bits.
     pub fn signed(integer: i32, fraction: u32) -> Result<Self, FormatError> {
-        Self {
-            signed: true,
-            integer,
-            fraction,
-        }
-        .checked()
+        Self { signed: true, integer, fraction }.checked()
     }
 
     /// An unsigned format.
@@ -81,12 +76,7 @@ impl QFormat {
     /// # Errors
     /// When the width is not 1 to 63 bits.
     pub fn unsigned(integer: i32, fraction: u32) -> Result<Self, FormatError> {
-        Self {
-            signed: false,
-            integer,
-            fraction,
-        }
-        .checked()
+        Self { signed: false, integer, fraction }.checked()
     }
 
     /// The narrowest format with this many fraction bits that holds every integer in `low..=high`
@@ -102,12 +92,7 @@ impl QFormat {
         } else {
             magnitude_bits(high).max(1)
         };
-        Self {
-            signed,
-            integer: width - fraction as i32,
-            fraction,
-        }
-        .checked()
+        Self { signed, integer: width - fraction as i32, fraction }.checked()
     }
 
     /// An unsigned integer format for a field of the hardware's own (an address, flags): `width` bits,
@@ -123,10 +108,7 @@ impl QFormat {
         if (1..=i64::from(MAX_WIDTH)).contains(&width) && self.fraction <= MAX_WIDTH {
             Ok(self)
         } else {
-            Err(FormatError::Width {
-                text: self.to_string(),
-                width,
-            })
+            Err(FormatError::Width { text: self.to_string(), width })
         }
     }
 
@@ -157,11 +139,7 @@ impl QFormat {
     /// The least bits the format holds.
     #[must_use]
     pub const fn min_bits(self) -> i64 {
-        if self.signed {
-            -(1 << (self.width() - 1))
-        } else {
-            0
-        }
+        if self.signed { -(1 << (self.width() - 1)) } else { 0 }
     }
 
     /// The greatest bits the format holds.
@@ -215,11 +193,7 @@ impl QFormat {
     #[must_use]
     pub const fn from_word(self, word: u64) -> i64 {
         let unused = 64 - self.width();
-        if self.signed {
-            ((word << unused) as i64) >> unused
-        } else {
-            (word & self.mask()) as i64
-        }
+        if self.signed { ((word << unused) as i64) >> unused } else { (word & self.mask()) as i64 }
     }
 
     const fn mask(self) -> u64 {
@@ -291,28 +265,15 @@ mod tests {
         let wide: QFormat = "UQ0.63".parse().unwrap();
         assert_eq!(wide.max_bits(), i64::MAX);
         let wide: QFormat = "Q63.0".parse().unwrap();
-        assert_eq!(
-            (wide.min_bits(), wide.max_bits()),
-            (-(1 << 62), (1 << 62) - 1)
-        );
+        assert_eq!((wide.min_bits(), wide.max_bits()), (-(1 << 62), (1 << 62) - 1));
     }
 
     #[test]
     fn what_is_not_a_format_is_refused() {
         for text in ["", "Q", "Q1", "1.15", "UQ1.15 ", "Q+1.2", "Q1.-2", "q1.2"] {
-            assert_eq!(
-                text.parse::<QFormat>(),
-                Err(FormatError::Syntax(text.into()))
-            );
+            assert_eq!(text.parse::<QFormat>(), Err(FormatError::Syntax(text.into())));
         }
-        for text in [
-            "Q0.0",
-            "UQ64.0",
-            "UQ1.63",
-            "Q-3.3",
-            "UQ-3.66",
-            "Q2000000000.4000000000",
-        ] {
+        for text in ["Q0.0", "UQ64.0", "UQ1.63", "Q-3.3", "UQ-3.66", "Q2000000000.4000000000"] {
             assert!(
                 matches!(
                     text.parse::<QFormat>(),

@@ -13,10 +13,7 @@ pub struct Preset {
 
 macro_rules! preset {
     ($name:literal) => {
-        Preset {
-            name: $name,
-            json: include_str!(concat!("../presets/", $name, ".json")),
-        }
+        Preset { name: $name, json: include_str!(concat!("../presets/", $name, ".json")) }
     };
 }
 

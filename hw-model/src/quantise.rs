@@ -64,11 +64,7 @@ pub fn round_scaled(
     // Below 2^-11 a double may have bits that I64F64 has not. All that matters of such a value is
     // its sign and that it is not zero: every mode treats it as it treats ±2^-11.
     let tiny = (-11_f64).exp2();
-    let scaled = if scaled != 0.0 && scaled.abs() < tiny {
-        tiny.copysign(scaled)
-    } else {
-        scaled
-    };
+    let scaled = if scaled != 0.0 && scaled.abs() < tiny { tiny.copysign(scaled) } else { scaled };
     let exact = I64F64::from_num(scaled);
     let integer = match rounding {
         Rounding::Floor => exact.floor(),
@@ -89,11 +85,7 @@ pub fn real(bits: i64, format: QFormat) -> f64 {
 /// The exact decimal value of `bits` in `format`, without trailing zeros: `0.5`, `-1.25`, `3`.
 #[must_use]
 pub fn decimal(bits: i64, format: QFormat) -> String {
-    let digits = format!(
-        "{:.*}",
-        format.fraction_bits() as usize,
-        exact(bits, format)
-    );
+    let digits = format!("{:.*}", format.fraction_bits() as usize, exact(bits, format));
     match digits.split_once('.') {
         None => digits,
         Some((whole, fraction)) => match fraction.trim_end_matches('0') {
@@ -123,30 +115,17 @@ mod tests {
         check("1", 1 << 15, "UQ1.15");
         check("-0.5", -1, "Q1.1");
         check("-4611686018427387904", i64::MIN / 2, "Q63.0");
-        check(
-            "0.000000000000000000108420217248550443400745280086994171142578125",
-            1,
-            "UQ0.63",
-        );
+        check("0.000000000000000000108420217248550443400745280086994171142578125", 1, "UQ0.63");
     }
 
     #[test]
     fn what_is_not_finite_or_does_not_fit_is_refused() {
         let format: QFormat = "UQ1.15".parse().unwrap();
         let quantise = |value| quantise(value, format, Rounding::NearestEven, Overflow::Refuse);
-        assert!(matches!(
-            quantise(f64::NAN),
-            Err(QuantiseError::NotFinite(_))
-        ));
-        assert!(matches!(
-            quantise(f64::INFINITY),
-            Err(QuantiseError::NotFinite(_))
-        ));
+        assert!(matches!(quantise(f64::NAN), Err(QuantiseError::NotFinite(_))));
+        assert!(matches!(quantise(f64::INFINITY), Err(QuantiseError::NotFinite(_))));
         let error = quantise(2.0).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "2 does not fit UQ1.15, which holds 0 to 1.999969482421875"
-        );
+        assert_eq!(error.to_string(), "2 does not fit UQ1.15, which holds 0 to 1.999969482421875");
         assert!(quantise(-1e300).is_err() && quantise(1e300).is_err());
     }
 
@@ -156,11 +135,7 @@ mod tests {
         let round = |value, mode| round_scaled(value, 20, mode).unwrap();
         assert_eq!(round(-tiny, Rounding::Floor), -1);
         assert_eq!(round(tiny, Rounding::Floor), 0);
-        for mode in [
-            Rounding::NearestUp,
-            Rounding::NearestEven,
-            Rounding::TowardZero,
-        ] {
+        for mode in [Rounding::NearestUp, Rounding::NearestEven, Rounding::TowardZero] {
             assert_eq!((round(-tiny, mode), round(tiny, mode)), (0, 0), "{mode}");
         }
     }

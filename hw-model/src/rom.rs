@@ -37,16 +37,8 @@ pub enum FieldName {
 
 impl FieldName {
     /// Every field, in the order in which they are packed.
-    pub const ALL: [Self; 8] = [
-        Self::C3,
-        Self::C2,
-        Self::C1,
-        Self::C0,
-        Self::Cut,
-        Self::Shift,
-        Self::TailA,
-        Self::TailB,
-    ];
+    pub const ALL: [Self; 8] =
+        [Self::C3, Self::C2, Self::C1, Self::C0, Self::Cut, Self::Shift, Self::TailA, Self::TailB];
 
     /// The name used in files and RTL.
     #[must_use]
@@ -148,11 +140,7 @@ impl Layout {
                     word_width += format.width();
                     Place::Stored { lsb }
                 };
-                Field {
-                    name,
-                    format,
-                    place,
-                }
+                Field { name, format, place }
             })
             .collect();
         Self { fields, word_width }
@@ -179,14 +167,12 @@ impl Layout {
     /// The word of a row.
     #[must_use]
     pub fn pack(&self, row: &Row) -> UBig {
-        self.fields
-            .iter()
-            .fold(UBig::ZERO, |word, field| match field.place {
-                Place::Constant { .. } => word,
-                Place::Stored { lsb } => {
-                    word | (UBig::from(field.format.to_word(row.get(field.name))) << lsb as usize)
-                }
-            })
+        self.fields.iter().fold(UBig::ZERO, |word, field| match field.place {
+            Place::Constant { .. } => word,
+            Place::Stored { lsb } => {
+                word | (UBig::from(field.format.to_word(row.get(field.name))) << lsb as usize)
+            }
+        })
     }
 
     /// The row of a word; bits above the word's width are ignored.
@@ -199,9 +185,7 @@ impl Layout {
                 Place::Stored { lsb } => {
                     let low = (word >> lsb as usize) & UBig::from(u64::MAX);
                     // Masked to 64 bits just above, so the conversion cannot fail.
-                    field
-                        .format
-                        .from_word(u64::try_from(low).unwrap_or_default())
+                    field.format.from_word(u64::try_from(low).unwrap_or_default())
                 }
             };
             row.set(field.name, bits);
@@ -224,11 +208,7 @@ impl Rom {
     pub fn new(exponents: Exponents, rows: Vec<Row>, formats: &[(FieldName, QFormat)]) -> Self {
         debug_assert_eq!(exponents.len(), rows.len());
         let layout = Layout::of(&rows, formats);
-        Self {
-            exponents,
-            rows,
-            layout,
-        }
+        Self { exponents, rows, layout }
     }
 
     /// Number of words.
@@ -331,9 +311,6 @@ mod tests {
         let constant = |name| layout.field(name).unwrap().place;
         assert_eq!(constant(FieldName::C0), Place::Constant { bits: 1 });
         assert_eq!(constant(FieldName::C3), Place::Stored { lsb: 0 });
-        assert_eq!(
-            Layout::of(&rows[..1], &formats()).word_width(),
-            35 + 63 + 1 + 23
-        );
+        assert_eq!(Layout::of(&rows[..1], &formats()).word_width(), 35 + 63 + 1 + 23);
     }
 }

@@ -34,12 +34,7 @@ pub enum Rounding {
 
 impl Rounding {
     /// Every mode, in the order of the table above.
-    pub const ALL: [Self; 4] = [
-        Self::Floor,
-        Self::NearestUp,
-        Self::NearestEven,
-        Self::TowardZero,
-    ];
+    pub const ALL: [Self; 4] = [Self::Floor, Self::NearestUp, Self::NearestEven, Self::TowardZero];
 
     /// The name used in configurations.
     #[must_use]
@@ -116,10 +111,7 @@ impl Lane for i128 {
     }
     #[inline]
     fn to_bits(self) -> i64 {
-        debug_assert!(
-            i64::try_from(self).is_ok(),
-            "a register holds at most 63 bits"
-        );
+        debug_assert!(i64::try_from(self).is_ok(), "a register holds at most 63 bits");
         self as i64
     }
 }

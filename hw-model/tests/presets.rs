@@ -27,9 +27,7 @@ fn every_preset_keeps_its_error_budget() {
         let mut block = Block::default();
         let mut compared = 0;
         for (address, row) in design.rows().iter().enumerate() {
-            design
-                .datapath()
-                .evaluate_block(address as u32, &xs, &mut block);
+            design.datapath().evaluate_block(address as u32, &xs, &mut block);
             for (&x, &bits) in xs.iter().zip(&block.intensities) {
                 let s = real(one - x, config.input);
                 let wanted = row.value_at_s(s, x >= row.cut);
@@ -63,11 +61,7 @@ fn a_block_gives_what_the_ranks_give() {
                 xs.iter().zip(block.intensities.iter().zip(&block.regions))
             {
                 let last = datapath.evaluate(address, x);
-                assert_eq!(
-                    (last.intensity, last.region),
-                    (bits, region),
-                    "{address} {x}"
-                );
+                assert_eq!((last.intensity, last.region), (bits, region), "{address} {x}");
             }
         }
     }

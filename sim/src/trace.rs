@@ -70,12 +70,12 @@ impl<W: Write> TraceWriter<W> {
         self.csv.write_record(None::<&[u8]>)
     }
 
-    /// Flushes, and gives the output back.
+    /// Flushes.
     ///
     /// # Errors
     /// When the output cannot be written.
-    pub fn finish(self) -> std::io::Result<W> {
-        self.csv.into_inner().map_err(csv::IntoInnerError::into_error)
+    pub fn finish(mut self) -> std::io::Result<()> {
+        self.csv.flush()
     }
 }
 

@@ -144,7 +144,7 @@ impl<W: Write> WaveWriter<W> {
         words
     }
 
-    /// Writes the last rising edge and flushes.
+    /// Writes the last rising edge, and flushes.
     ///
     /// # Errors
     /// When the output cannot be written.

@@ -25,15 +25,8 @@ pub enum Register {
 
 impl Register {
     /// Every register, in the order of [`FractionBits`].
-    pub const ALL: [Self; 7] = [
-        Self::V,
-        Self::C3,
-        Self::C2,
-        Self::C1,
-        Self::C0,
-        Self::T1,
-        Self::T2,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::V, Self::C3, Self::C2, Self::C1, Self::C0, Self::T1, Self::T2];
 
     /// The name used in configurations and messages.
     #[must_use]
@@ -57,17 +50,9 @@ pub type FractionBits = [u32; Register::ALL.len()];
 /// subtracts, every odd power changes sign.
 pub(super) fn horner(terms: &[f64], subtract: bool) -> Vec<f64> {
     let sign = |power: usize| {
-        if subtract && power % 2 == 1 {
-            -1.0
-        } else {
-            1.0
-        }
+        if subtract && power % 2 == 1 { -1.0 } else { 1.0 }
     };
-    terms
-        .iter()
-        .enumerate()
-        .map(|(power, term)| sign(power) * term)
-        .collect()
+    terms.iter().enumerate().map(|(power, term)| sign(power) * term).collect()
 }
 
 /// How strongly an error in each register shows in the result of one row.
@@ -94,11 +79,7 @@ impl Surroundings {
     /// The greatest error of a rounding line that keeps `fraction` bits.
     pub(crate) fn line_error(&self, fraction: u32) -> f64 {
         let ulp = (-f64::from(fraction)).exp2();
-        if self.rounding.is_nearest() {
-            0.5 * ulp
-        } else {
-            ulp
-        }
+        if self.rounding.is_nearest() { 0.5 * ulp } else { ulp }
     }
 }
 
@@ -107,10 +88,7 @@ impl Sensitivity {
     #[must_use]
     pub fn of(row: RowPolynomial, surroundings: &Surroundings) -> Self {
         let polynomial = horner(&row.coefficients, surroundings.centred);
-        Self {
-            row,
-            slope: magnitude(&derivative(&polynomial), row.v),
-        }
+        Self { row, slope: magnitude(&derivative(&polynomial), row.v) }
     }
 
     /// The row.
@@ -128,15 +106,9 @@ impl Sensitivity {
             .iter()
             .zip(self.row.coefficients)
             .rev()
-            .fold(0.0, |sum, (&fraction, value)| {
-                sum * v + coefficient_error(value, fraction)
-            });
+            .fold(0.0, |sum, (&fraction, value)| sum * v + coefficient_error(value, fraction));
         let line = |fraction, whole| {
-            if fraction >= whole {
-                0.0
-            } else {
-                surroundings.line_error(fraction)
-            }
+            if fraction >= whole { 0.0 } else { surroundings.line_error(fraction) }
         };
         let variable = if surroundings.centred {
             self.slope * line(v_bits, surroundings.input.saturating_sub(self.row.shift))
@@ -147,20 +119,12 @@ impl Sensitivity {
             + line(t2, (t1 + v_bits).max(c1)) * v
             + line(surroundings.output, (t2 + v_bits).max(c0));
         let ulp = (-f64::from(surroundings.output)).exp2();
-        Bound {
-            coefficient: coefficient / ulp,
-            datapath: (variable + rounding) / ulp,
-            tail: 0.0,
-        }
+        Bound { coefficient: coefficient / ulp, datapath: (variable + rounding) / ulp, tail: 0.0 }
     }
 }
 
 /// Half an ulp, or nothing where the format holds the value exactly.
 pub(super) fn coefficient_error(value: f64, fraction: u32) -> f64 {
     let scaled = value * f64::from(fraction).exp2();
-    if scaled == scaled.round() {
-        0.0
-    } else {
-        0.5 * (-f64::from(fraction)).exp2()
-    }
+    if scaled == scaled.round() { 0.0 } else { 0.5 * (-f64::from(fraction)).exp2() }
 }

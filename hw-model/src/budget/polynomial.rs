@@ -7,12 +7,7 @@ pub(super) fn value(coefficients: &[f64], v: f64) -> f64 {
 
 /// The coefficients of the derivative.
 pub(super) fn derivative(coefficients: &[f64]) -> Vec<f64> {
-    coefficients
-        .iter()
-        .enumerate()
-        .skip(1)
-        .map(|(power, c)| power as f64 * c)
-        .collect()
+    coefficients.iter().enumerate().skip(1).map(|(power, c)| power as f64 * c).collect()
 }
 
 /// The least and greatest value on `low..=high`: at an end, or where the derivative vanishes.
@@ -47,11 +42,7 @@ fn quadratic_roots(coefficients: &[f64]) -> Vec<f64> {
         return vec![];
     }
     let sum = -0.5 * (b + discriminant.sqrt().copysign(b));
-    if sum == 0.0 {
-        vec![0.0]
-    } else {
-        vec![sum / a, c / sum]
-    }
+    if sum == 0.0 { vec![0.0] } else { vec![sum / a, c / sum] }
 }
 
 #[cfg(test)]

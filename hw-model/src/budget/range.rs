@@ -16,10 +16,7 @@ impl Range {
     /// The range that holds only zero (what a register shows without a ROM word).
     #[must_use]
     pub const fn zero() -> Self {
-        Self {
-            low: (0.0, f64::NAN),
-            high: (0.0, f64::NAN),
-        }
+        Self { low: (0.0, f64::NAN), high: (0.0, f64::NAN) }
     }
 
     /// Widened to `low..=high`, reached at this exponent.
@@ -48,37 +45,18 @@ impl Range {
         // Floor and ceiling: the integers that enclose every value the register can show.
         let low = (self.low.0 * scale).floor() as i128;
         let high = (self.high.0 * scale).ceil() as i128;
-        let furthest = if self.high.0 >= -self.low.0 {
-            self.high.1
-        } else {
-            self.low.1
-        };
-        let needed =
-            QFormat::for_range(low, high, fraction).map_err(|source| BudgetError::TooWide {
-                register,
-                exponent: furthest,
-                source,
-            })?;
+        let furthest = if self.high.0 >= -self.low.0 { self.high.1 } else { self.low.1 };
+        let needed = QFormat::for_range(low, high, fraction)
+            .map_err(|source| BudgetError::TooWide { register, exponent: furthest, source })?;
         let Some(stated) = stated else {
             return Ok(needed);
         };
         if stated.holds(low) && stated.holds(high) {
             return Ok(stated);
         }
-        let exponent = if stated.holds(high) {
-            self.low.1
-        } else {
-            self.high.1
-        };
+        let exponent = if stated.holds(high) { self.low.1 } else { self.high.1 };
         let (low, high) = (self.low.0, self.high.0);
-        Err(BudgetError::Overflow {
-            register,
-            stated,
-            needed,
-            exponent,
-            low,
-            high,
-        })
+        Err(BudgetError::Overflow { register, stated, needed, exponent, low, high })
     }
 }
 
@@ -109,10 +87,7 @@ pub fn ranges(rows: &[RowPolynomial], subtract: bool, carried: &Carried) -> [Ran
         ranges[0] = ranges[0].with(region, row.exponent);
         for ((range, polynomial), reach) in ranges[1..].iter_mut().zip(partial).zip(reach) {
             let (low, high) = extremes(&polynomial, region);
-            let scale: f64 = polynomial
-                .iter()
-                .rev()
-                .fold(0.0, |sum, c| sum * v + c.abs());
+            let scale: f64 = polynomial.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
             let slack = reach + scale * (-40_f64).exp2();
             *range = range.with((low - slack, high + slack), row.exponent);
         }

@@ -38,11 +38,7 @@ impl Search<'_> {
             let pinned = self.pinned.iter().any(Option::is_some);
             return Err(BudgetError::NotKept {
                 budget: self.budget,
-                what: if pinned {
-                    "the stated widths"
-                } else {
-                    "even generous widths"
-                },
+                what: if pinned { "the stated widths" } else { "even generous widths" },
                 needed: worst,
                 exponent,
             });
@@ -57,16 +53,8 @@ impl Search<'_> {
     fn worst(&self, bits: &FractionBits) -> (f64, f64) {
         self.sensitivities
             .iter()
-            .map(|row| {
-                (
-                    row.bound(bits, &self.surroundings).total(),
-                    row.row().exponent,
-                )
-            })
-            .fold(
-                (0.0, 1.0),
-                |worst, row| if row.0 > worst.0 { row } else { worst },
-            )
+            .map(|row| (row.bound(bits, &self.surroundings).total(), row.row().exponent))
+            .fold((0.0, 1.0), |worst, row| if row.0 > worst.0 { row } else { worst })
     }
 
     fn start(&self, integer: &[i32; Register::ALL.len()]) -> FractionBits {
@@ -92,13 +80,7 @@ impl Search<'_> {
                 *most = most.max(value);
             }
         }
-        greatest.map(|value| {
-            if value > 0.0 {
-                value.log2().floor() as i32 + 1
-            } else {
-                0
-            }
-        })
+        greatest.map(|value| if value > 0.0 { value.log2().floor() as i32 + 1 } else { 0 })
     }
 
     /// Multiplier bits, and ROM bits at their price.
@@ -144,10 +126,7 @@ impl Search<'_> {
     /// The bound of each row with these fraction bits.
     #[must_use]
     pub fn bounds(&self, bits: &FractionBits) -> Vec<Bound> {
-        self.sensitivities
-            .iter()
-            .map(|row| row.bound(bits, &self.surroundings))
-            .collect()
+        self.sensitivities.iter().map(|row| row.bound(bits, &self.surroundings)).collect()
     }
 }
 

@@ -55,11 +55,7 @@ fn bound_of_bits(row: &RowTail, bits: Bits, input: u32, surroundings: &Surroundi
     }
     let whole = (bits.b + input).max(bits.a);
     let line = |fraction| surroundings.line_error(fraction);
-    let rounding = if bits.divisor >= whole {
-        0.0
-    } else {
-        line(bits.divisor)
-    };
+    let rounding = if bits.divisor >= whole { 0.0 } else { line(bits.divisor) };
     let error = coefficient_error(row.a, bits.a) + x * coefficient_error(row.b, bits.b) + rounding;
     // The divisor itself may be smaller by the error: bound the quotient's change with that.
     let divisor = (row.a - row.b * x - error).max(f64::MIN_POSITIVE);
@@ -80,15 +76,8 @@ pub fn widths(
 ) -> Result<TailWidths, BudgetError> {
     let quotient = Divider::quotient_fraction(surroundings.output);
     let least = input.fraction_bits().saturating_sub(quotient);
-    if let Some(stated) = stated
-        .divisor
-        .filter(|format| format.fraction_bits() < least)
-    {
-        return Err(BudgetError::TooFewFractionBits {
-            register: "divisor",
-            stated,
-            least,
-        });
+    if let Some(stated) = stated.divisor.filter(|format| format.fraction_bits() < least) {
+        return Err(BudgetError::TooFewFractionBits { register: "divisor", stated, least });
     }
     let stated_bits = |format: Option<QFormat>, d| format.map_or(d, QFormat::fraction_bits);
     let choose = |d: u32| Bits {
@@ -99,15 +88,9 @@ pub fn widths(
     let worst = |bits: Bits| {
         rows.iter()
             .map(|row| {
-                (
-                    bound_of_bits(row, bits, input.fraction_bits(), surroundings),
-                    row.exponent,
-                )
+                (bound_of_bits(row, bits, input.fraction_bits(), surroundings), row.exponent)
             })
-            .fold(
-                (0.0, 1.0),
-                |worst, row| if row.0 > worst.0 { row } else { worst },
-            )
+            .fold((0.0, 1.0), |worst, row| if row.0 > worst.0 { row } else { worst })
     };
     // 14 bits beyond the output's: an error of 2^−14 ulp, as in the search for the polynomial.
     let most = surroundings.output + 14;
@@ -117,12 +100,7 @@ pub fn widths(
         .ok_or_else(|| {
             let (needed, exponent) = worst(choose(most.max(least)));
             let what = "the divider's widths";
-            BudgetError::NotKept {
-                budget,
-                what,
-                needed,
-                exponent,
-            }
+            BudgetError::NotKept { budget, what, needed, exponent }
         })?;
     formats(rows, bits, stated)
 }

@@ -34,10 +34,7 @@ impl Datapath {
         let Some(row) = self.rom.row(address) else {
             return;
         };
-        let outputs = block
-            .intensities
-            .chunks_mut(LANES)
-            .zip(block.regions.chunks_mut(LANES));
+        let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
         for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
             if self.narrow {
                 self.evaluate_lanes::<i64>(row, xs, intensities, regions);
@@ -102,11 +99,7 @@ impl Datapath {
         let Some(divider) = &self.divider else { return };
         let a = L::from_bits(row.get(FieldName::TailA));
         let b = L::from_bits(row.get(FieldName::TailB));
-        let idle = Division {
-            divisor: L::ONE,
-            remainder: L::ZERO,
-            digits: L::ZERO,
-        };
+        let idle = Division { divisor: L::ONE, remainder: L::ZERO, digits: L::ZERO };
         let mut divisions = [idle; LANES];
         for ((&x, &region), division) in xs.iter().zip(regions).zip(&mut divisions) {
             let x = self.front_end.clamp_input(L::from_bits(x));
@@ -120,11 +113,7 @@ impl Datapath {
         let one = L::from_bits(self.output_one);
         for ((&region, intensity), &division) in regions.iter().zip(intensities).zip(&divisions) {
             let quotient = divider.finish(division, one).to_bits();
-            *intensity = if region == Region::Tail {
-                quotient
-            } else {
-                *intensity
-            };
+            *intensity = if region == Region::Tail { quotient } else { *intensity };
         }
     }
 }

@@ -97,11 +97,7 @@ impl FrontEnd {
     #[inline]
     pub fn variable<L: Lane>(&self, x: L, region: Region, shift: u32) -> L {
         let greatest = L::from_bits(self.greatest);
-        let x = if region == Region::Polynomial {
-            x
-        } else {
-            greatest
-        };
+        let x = if region == Region::Polynomial { x } else { greatest };
         match self.variable {
             None => L::ZERO,
             Some(Variable::X) => x,

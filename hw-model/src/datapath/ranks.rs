@@ -130,9 +130,7 @@ impl Datapath {
 
     fn middle_ranks(&self) -> usize {
         let polynomial = if self.stages.is_some() { STAGES } else { 0 };
-        let tail = self
-            .divider
-            .map_or(0, |divider| 1 + divider.digit_stages() as usize);
+        let tail = self.divider.map_or(0, |divider| 1 + divider.digit_stages() as usize);
         polynomial.max(tail)
     }
 
@@ -194,8 +192,7 @@ impl Datapath {
         let region = if before.status.contains(Status::NO_WORD) {
             Region::Zero
         } else {
-            self.front_end
-                .region(given, L::from_bits(before.row.get(FieldName::Cut)))
+            self.front_end.region(given, L::from_bits(before.row.get(FieldName::Cut)))
         };
         Signals {
             x: x.to_bits(),
@@ -204,10 +201,7 @@ impl Datapath {
                 .status
                 .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
                 .with(Status::FACING_AWAY, given < L::ZERO),
-            v: self
-                .front_end
-                .variable(x, region, before.row.shift())
-                .to_bits(),
+            v: self.front_end.variable(x, region, before.row.shift()).to_bits(),
             tail_x: self.front_end.tail_x(x, region).to_bits(),
             ..*before
         }
@@ -226,9 +220,7 @@ impl Datapath {
             _ => (signals.t2, row.get(FieldName::C0)),
         };
         let lane = L::from_bits;
-        let t = stage
-            .apply(lane(multiplicand), lane(signals.v), lane(addend))
-            .to_bits();
+        let t = stage.apply(lane(multiplicand), lane(signals.v), lane(addend)).to_bits();
         match index {
             0 => signals.t1 = t,
             1 => signals.t2 = t,
@@ -242,11 +234,7 @@ impl Datapath {
         let row = &signals.row;
         let division = if index == 0 {
             let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
-            divider.begin(
-                L::from_bits(signals.tail_x),
-                L::from_bits(a),
-                L::from_bits(b),
-            )
+            divider.begin(L::from_bits(signals.tail_x), L::from_bits(a), L::from_bits(b))
         } else {
             divider.digit_stage(index as u32 - 1, widen::<L>(signals.division))
         };
@@ -265,9 +253,9 @@ impl Datapath {
                 intensity
             }
             // A tail answers only where there is a divider.
-            Region::Tail => self.divider.map_or(0, |divider| {
-                divider.finish(widen::<L>(before.division), one).to_bits()
-            }),
+            Region::Tail => self
+                .divider
+                .map_or(0, |divider| divider.finish(widen::<L>(before.division), one).to_bits()),
         };
         after
     }
@@ -287,18 +275,14 @@ impl Datapath {
     /// What the last rank holds for (address, x): the intensity, the status, and every value computed on the way.
     #[must_use]
     pub fn evaluate(&self, address: u32, x: i64) -> Signals {
-        (1..self.rank_count()).fold(self.fetch(address, x), |held, rank| {
-            self.advance(rank, &held)
-        })
+        (1..self.rank_count()).fold(self.fetch(address, x), |held, rank| self.advance(rank, &held))
     }
 
     /// The registers of a rank, in the order of traces and vectors. Constants take none.
     #[must_use]
     pub fn registers(&self, rank: usize) -> Vec<Register> {
         let last = self.rank_count() - 1;
-        let mut list = List {
-            registers: Vec::new(),
-        };
+        let mut list = List { registers: Vec::new() };
         if rank == last {
             list.add("intensity", self.formats.output, true, |s| s.intensity);
         } else {
@@ -314,9 +298,7 @@ impl Datapath {
             }
         }
         let computed = rank <= 1 || rank == last;
-        list.add("status", QFormat::field(Status::WIDTH), computed, |s| {
-            s.status.bits().into()
-        });
+        list.add("status", QFormat::field(Status::WIDTH), computed, |s| s.status.bits().into());
         list.registers
     }
 
@@ -326,9 +308,7 @@ impl Datapath {
             list.add("address", address, true, |s| s.address.into());
             list.add("x", self.formats.input, true, |s| s.x);
             self.field(list, FieldName::Cut, true, |s| s.row.get(FieldName::Cut));
-            self.field(list, FieldName::Shift, true, |s| {
-                s.row.get(FieldName::Shift)
-            });
+            self.field(list, FieldName::Shift, true, |s| s.row.get(FieldName::Shift));
         }
     }
 
@@ -362,27 +342,17 @@ impl Datapath {
 
     fn tail_registers(&self, rank: usize, formats: &TailFormats, list: &mut List) {
         if rank < HEAD_RANKS {
-            self.field(list, FieldName::TailA, rank == 0, |s| {
-                s.row.get(FieldName::TailA)
-            });
-            self.field(list, FieldName::TailB, rank == 0, |s| {
-                s.row.get(FieldName::TailB)
-            });
+            self.field(list, FieldName::TailA, rank == 0, |s| s.row.get(FieldName::TailA));
+            self.field(list, FieldName::TailB, rank == 0, |s| s.row.get(FieldName::TailB));
         }
         if rank == 1 {
             list.add("tail_x", self.tail_x_format(), true, |s| s.tail_x);
         }
         if rank >= HEAD_RANKS {
-            let steps = self
-                .divider
-                .map_or(0, |divider| divider.digit_stages() as usize);
+            let steps = self.divider.map_or(0, |divider| divider.digit_stages() as usize);
             let working = rank <= HEAD_RANKS + steps;
-            list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| {
-                s.division.divisor
-            });
-            list.add("remainder", formats.divisor, working, |s| {
-                s.division.remainder
-            });
+            list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| s.division.divisor);
+            list.add("remainder", formats.divisor, working, |s| s.division.remainder);
             list.add("digits", formats.digits, working, |s| s.division.digits);
         }
     }
@@ -421,12 +391,7 @@ impl List {
         computed: bool,
         bits: fn(&Signals) -> i64,
     ) {
-        self.registers.push(Register {
-            name,
-            format,
-            computed,
-            bits,
-        });
+        self.registers.push(Register { name, format, computed, bits });
     }
 }
 

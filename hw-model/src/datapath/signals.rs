@@ -58,11 +58,7 @@ impl fmt::Display for Status {
             .filter(|(flag, _)| self.contains(*flag))
             .map(|&(_, name)| name)
             .collect();
-        f.pad(&if names.is_empty() {
-            "-".to_owned()
-        } else {
-            names.join("+")
-        })
+        f.pad(&if names.is_empty() { "-".to_owned() } else { names.join("+") })
     }
 }
 

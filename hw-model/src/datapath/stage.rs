@@ -46,11 +46,7 @@ impl MultiplyAdd {
     #[must_use]
     pub const fn aligned(fractions: Fractions, subtract: bool, rounding: Rounding) -> Self {
         let product = fractions.multiplicand + fractions.variable;
-        let common = if product > fractions.addend {
-            product
-        } else {
-            fractions.addend
-        };
+        let common = if product > fractions.addend { product } else { fractions.addend };
         Self {
             subtract,
             product_up: common - product,
@@ -86,11 +82,7 @@ impl MultiplyAdd {
     pub fn apply<L: Lane>(&self, multiplicand: L, variable: L, addend: L) -> L {
         let product = (multiplicand * variable) << self.product_up;
         let addend = addend << self.addend_up;
-        let sum = if self.subtract {
-            addend - product
-        } else {
-            addend + product
-        };
+        let sum = if self.subtract { addend - product } else { addend + product };
         round_shift(sum << self.result_up, self.drop, self.rounding)
     }
 }
@@ -106,12 +98,7 @@ mod tests {
             for multiplicand in 3..6 {
                 for variable in 1..6 {
                     for result in 4..12 {
-                        let fractions = Fractions {
-                            multiplicand,
-                            variable,
-                            addend,
-                            result,
-                        };
+                        let fractions = Fractions { multiplicand, variable, addend, result };
                         let line = MultiplyAdd::aligned(fractions, true, Rounding::Floor);
                         let t = line.apply(
                             (5_i64 << multiplicand) / 8,
@@ -128,12 +115,7 @@ mod tests {
     #[test]
     fn the_sum_is_rounded_and_not_the_product() {
         // 1/4 + 1/2·1/2 = 1/2 in integers: the tie goes up only if nothing was dropped before.
-        let fractions = Fractions {
-            multiplicand: 1,
-            variable: 1,
-            addend: 2,
-            result: 0,
-        };
+        let fractions = Fractions { multiplicand: 1, variable: 1, addend: 2, result: 0 };
         let line = MultiplyAdd::aligned(fractions, false, Rounding::NearestUp);
         assert_eq!(line.apply(1_i64, 1, 1), 1);
         assert_eq!(line.apply(1_i64, 1, 0), 0);

@@ -79,11 +79,7 @@ impl Divider {
     /// One quotient bit.
     #[inline]
     pub fn digit<L: Lane>(&self, division: Division<L>) -> Division<L> {
-        let Division {
-            divisor,
-            remainder,
-            digits,
-        } = division;
+        let Division { divisor, remainder, digits } = division;
         let low_mask = (L::ONE << self.digit_count) - L::ONE;
         let next_bit = digits >> (self.digit_count - 1);
         let doubled = (remainder << 1) + next_bit;
@@ -106,11 +102,7 @@ impl Divider {
     /// The finished quotient in the output's unit, rounded once, at most `one`.
     #[inline]
     pub fn finish<L: Lane>(&self, division: Division<L>, one: L) -> L {
-        let sticky = if division.remainder == L::ZERO {
-            L::ZERO
-        } else {
-            L::ONE
-        };
+        let sticky = if division.remainder == L::ZERO { L::ZERO } else { L::ONE };
         let quotient = (division.digits << 1) + sticky;
         round_shift(quotient, GUARD_BITS, self.rounding).min(one)
     }
@@ -128,12 +120,8 @@ mod tests {
         let k = Divider::quotient_fraction(output);
         let mut compared = 0;
         for rounding in Rounding::ALL {
-            let fractions = Fractions {
-                multiplicand: 4,
-                variable: x_fraction,
-                addend: 4,
-                result: d_fraction,
-            };
+            let fractions =
+                Fractions { multiplicand: 4, variable: x_fraction, addend: 4, result: d_fraction };
             let divider = Divider {
                 divisor: MultiplyAdd::aligned(fractions, true, rounding),
                 dividend_up: k + d_fraction - x_fraction,

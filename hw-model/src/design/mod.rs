@@ -93,12 +93,7 @@ impl Design {
             output_one: config.output.max_bits().min(config.output.one()),
             narrow,
         };
-        Ok(Self {
-            config,
-            rows,
-            bounds: parts.bounds,
-            datapath,
-        })
+        Ok(Self { config, rows, bounds: parts.bounds, datapath })
     }
 
     /// The configuration.

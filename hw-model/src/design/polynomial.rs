@@ -34,15 +34,11 @@ pub(super) fn derive(
     if config.method == Method::Schlick {
         return Ok(None);
     }
-    let real_rows: Vec<RowPolynomial> = rows
-        .iter()
-        .filter_map(|row| row_polynomial(config, row))
-        .collect();
+    let real_rows: Vec<RowPolynomial> =
+        rows.iter().filter_map(|row| row_polynomial(config, row)).collect();
     let surroundings = surroundings(config);
-    let sensitivities: Vec<Sensitivity> = real_rows
-        .iter()
-        .map(|row| Sensitivity::of(*row, &surroundings))
-        .collect();
+    let sensitivities: Vec<Sensitivity> =
+        real_rows.iter().map(|row| Sensitivity::of(*row, &surroundings)).collect();
     let search = Search {
         sensitivities: &sensitivities,
         surroundings,
@@ -106,12 +102,7 @@ fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
             ([1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)], v)
         }
     };
-    Some(RowPolynomial {
-        exponent: row.exponent,
-        shift: row.shift,
-        coefficients,
-        v,
-    })
+    Some(RowPolynomial { exponent: row.exponent, shift: row.shift, coefficients, v })
 }
 
 /// Quantises every coefficient, adds the ROM fields, and returns the rows as the ROM has them.
@@ -127,11 +118,7 @@ fn quantise_rows(
     for (index, (register, field)) in COEFFICIENTS.into_iter().enumerate().rev() {
         let fraction = bits[register as usize];
         let refuse = |exponent: f64| {
-            move |source| DesignError::Quantise {
-                field: field.name(),
-                exponent,
-                source,
-            }
+            move |source| DesignError::Quantise { field: field.name(), exponent, source }
         };
         let mut range = Range::zero();
         for row in rows {
@@ -143,13 +130,9 @@ fn quantise_rows(
         let format = range.format(field.name(), fraction, stated(config, register))?;
         let mut integers = Vec::with_capacity(rows.len());
         for (row, rom_row) in rows.iter().zip(&mut rom_rows) {
-            let integer = quantise(
-                row.coefficients[index],
-                format,
-                COEFFICIENT_ROUNDING,
-                Overflow::Refuse,
-            )
-            .map_err(refuse(row.exponent))?;
+            let integer =
+                quantise(row.coefficients[index], format, COEFFICIENT_ROUNDING, Overflow::Refuse)
+                    .map_err(refuse(row.exponent))?;
             rom_row.coefficients[index] = real(integer, format);
             integers.push(integer);
         }
@@ -170,25 +153,13 @@ fn line_formats(
     let surroundings = surroundings(config);
     let lines = [of(Register::T1), of(Register::T2), surroundings.output];
     let carried = Carried {
-        v: if surroundings.centred {
-            surroundings.line_error(of(Register::V))
-        } else {
-            0.0
-        },
+        v: if surroundings.centred { surroundings.line_error(of(Register::V)) } else { 0.0 },
         lines: lines.map(|fraction| surroundings.line_error(fraction)),
     };
     let [v, t1, t2, t3] = ranges(rom_rows, surroundings.centred, &carried);
-    let v_stated = if surroundings.centred {
-        config.widths.u
-    } else {
-        None
-    };
+    let v_stated = if surroundings.centred { config.widths.u } else { None };
     Ok(PolynomialFormats {
-        v: v.format(
-            if surroundings.centred { "u" } else { "x" },
-            of(Register::V),
-            v_stated,
-        )?,
+        v: v.format(if surroundings.centred { "u" } else { "x" }, of(Register::V), v_stated)?,
         coefficients,
         t1: t1.format("t1", lines[0], config.widths.t1)?,
         t2: t2.format("t2", lines[1], config.widths.t2)?,
@@ -205,10 +176,7 @@ fn front_end_fields(
     let greatest = |of: fn(&RealRow) -> i64| rows.iter().map(of).max().unwrap_or(0);
     let integer_format = |register, greatest: i64, fraction| {
         Range::zero()
-            .with(
-                (0.0, greatest as f64 * (-f64::from(fraction)).exp2()),
-                f64::NAN,
-            )
+            .with((0.0, greatest as f64 * (-f64::from(fraction)).exp2()), f64::NAN)
             .format(register, fraction, None)
     };
     let fraction = config.input.fraction_bits();
@@ -217,11 +185,7 @@ fn front_end_fields(
     parts.formats.cut = Some(cut);
     if config.form == Form::Centred {
         let shift = integer_format("shift", greatest(|row| row.shift.into()), 0)?;
-        parts.add_field(
-            FieldName::Shift,
-            shift,
-            rows.iter().map(|row| row.shift.into()),
-        );
+        parts.add_field(FieldName::Shift, shift, rows.iter().map(|row| row.shift.into()));
         parts.formats.shift = Some(shift);
     }
     Ok(())
@@ -244,10 +208,7 @@ fn lines(
     };
     // s·2^e before its rounding has the bits of u and those dropped; one more for the carry.
     let before_rounding = formats.v.width() + input.saturating_sub(v) + 2;
-    parts.lane_bits.push((
-        "the front end",
-        before_rounding.max(config.input.width() + 1),
-    ));
+    parts.lane_bits.push(("the front end", before_rounding.max(config.input.width() + 1)));
     let [c0, c1, c2, c3] = formats.coefficients;
     let meets = [
         ("stage 1", c3, c2, formats.t1.fraction_bits()),

@@ -31,10 +31,9 @@ impl RealRow {
     pub fn new(config: &Config, levels: Levels, exponent: f64) -> Result<Self, FitError> {
         let own = fit(config.method, exponent, levels)?;
         let (polynomial, tail) = match own.curve {
-            Curve::Cubic(cubic) if config.tail == Tail::Rational => (
-                Some(cubic),
-                fit(Method::Rational, exponent, levels)?.rational().copied(),
-            ),
+            Curve::Cubic(cubic) if config.tail == Tail::Rational => {
+                (Some(cubic), fit(Method::Rational, exponent, levels)?.rational().copied())
+            }
             Curve::Cubic(cubic) => (Some(cubic), None),
             Curve::Rational(rational) => (None, Some(rational)),
             Curve::Composite { epicentre, tail } => (Some(epicentre), Some(tail)),
@@ -49,14 +48,7 @@ impl RealRow {
             _ => 0,
         };
         let cut = cut_bits(config, cut_s);
-        Ok(Self {
-            exponent,
-            epicentre,
-            polynomial,
-            tail,
-            cut,
-            shift,
-        })
+        Ok(Self { exponent, epicentre, polynomial, tail, cut, shift })
     }
 
     /// The least x in the input's unit that lies on the epicentre, x ≥ q.
@@ -79,11 +71,7 @@ impl RealRow {
 
 /// s of the polynomial's minimum, between the epicentre's end and 1; 1 where it falls all the way.
 fn lowest_s(cubic: &Cubic, epicentre: f64) -> f64 {
-    cubic
-        .centred
-        .first_minimum()
-        .unwrap_or(1.0)
-        .clamp(epicentre, 1.0)
+    cubic.centred.first_minimum().unwrap_or(1.0).clamp(epicentre, 1.0)
 }
 
 /// The least x in the input's unit with x ≥ 1 − s: 1 − ⌊s⌋ in that unit. s ≤ 1, so it is not negative.

@@ -37,11 +37,7 @@ impl Design {
             let a = real(row.get(FieldName::TailA), formats.a);
             let b = real(row.get(FieldName::TailB), formats.b);
             // Both are multiples of one power of two and have few bits: the difference is exact.
-            Rational {
-                a,
-                b,
-                at_one: a - b,
-            }
+            Rational { a, b, at_one: a - b }
         });
         RomRow { polynomial, tail }
     }

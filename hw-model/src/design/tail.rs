@@ -18,10 +18,7 @@ pub(super) fn derive(
     rows: &[RealRow],
     parts: &mut Parts,
 ) -> Result<Option<Divider>, DesignError> {
-    let real_rows: Vec<RowTail> = rows
-        .iter()
-        .filter_map(|row| row_tail(config, row))
-        .collect();
+    let real_rows: Vec<RowTail> = rows.iter().filter_map(|row| row_tail(config, row)).collect();
     if real_rows.is_empty() {
         return Ok(None);
     }
@@ -31,13 +28,8 @@ pub(super) fn derive(
         b: config.widths.tail_b,
         divisor: config.widths.divisor,
     };
-    let widths = tail::widths(
-        &real_rows,
-        config.input,
-        &surroundings,
-        config.error_budget_ulp,
-        &stated,
-    )?;
+    let widths =
+        tail::widths(&real_rows, config.input, &surroundings, config.error_budget_ulp, &stated)?;
     let input = config.input.fraction_bits();
     for (bound, row) in parts.bounds.iter_mut().zip(&real_rows) {
         bound.tail = tail::bound(row, &widths, input, &surroundings);
@@ -65,14 +57,11 @@ pub(super) fn derive(
         rounding: config.rounding,
     };
     let x_width = config.input.width();
-    let line = divider
-        .divisor
-        .lane_bits(widths.b.width(), x_width, widths.a.width());
+    let line = divider.divisor.lane_bits(widths.b.width(), x_width, widths.a.width());
     parts.lane_bits.push(("the divisor", line));
     // Doubling a remainder takes a bit more than the divisor; the quotient gets a sticky bit.
-    let division = (x_width + divider.dividend_up)
-        .max(widths.divisor.width() + 2)
-        .max(digit_count + 3);
+    let division =
+        (x_width + divider.dividend_up).max(widths.divisor.width() + 2).max(digit_count + 3);
     parts.lane_bits.push(("the division", division));
     parts.formats.tail = Some(TailFormats {
         a: widths.a,
@@ -87,18 +76,9 @@ pub(super) fn derive(
 fn row_tail(config: &Config, row: &RealRow) -> Option<RowTail> {
     let rational = row.tail.as_ref()?;
     let greatest = config.input.max_bits().min(config.input.one());
-    let last = if row.polynomial.is_some() {
-        (row.cut - 1).min(greatest).max(0)
-    } else {
-        greatest
-    };
+    let last = if row.polynomial.is_some() { (row.cut - 1).min(greatest).max(0) } else { greatest };
     let greatest_x = last as f64 * config.input.ulp();
-    Some(RowTail {
-        exponent: row.exponent,
-        a: rational.a,
-        b: rational.b,
-        greatest_x,
-    })
+    Some(RowTail { exponent: row.exponent, a: rational.a, b: rational.b, greatest_x })
 }
 
 fn add_coefficients(
@@ -111,11 +91,7 @@ fn add_coefficients(
     let mut integers = Vec::with_capacity(rows.len());
     for row in rows {
         let integer = quantise(of(row), format, Rounding::NearestEven, Overflow::Refuse).map_err(
-            |source| DesignError::Quantise {
-                field: field.name(),
-                exponent: row.exponent,
-                source,
-            },
+            |source| DesignError::Quantise { field: field.name(), exponent: row.exponent, source },
         )?;
         integers.push(integer);
     }

@@ -7,10 +7,7 @@ use crate::highlight::{Centred, Cubic, Power};
 pub(super) fn rounded(centred: [DoubleDouble; 3], power: [DoubleDouble; 4]) -> Cubic {
     let [k1, k2, k3] = centred.map(DoubleDouble::to_f64);
     let [a, b, c, d] = power.map(DoubleDouble::to_f64);
-    Cubic {
-        centred: Centred { k1, k2, k3 },
-        power: Power { a, b, c, d },
-    }
+    Cubic { centred: Centred { k1, k2, k3 }, power: Power { a, b, c, d } }
 }
 
 /// A cubic with f(1) = 1 and f(0) = 0, so that a = k3, c = 1 − a − b, and d is zero exactly.
@@ -30,8 +27,5 @@ pub(super) fn monomial(exponent: f64, degrees: &[u8]) -> Option<Cubic> {
         3 => ([3.0, 3.0, 1.0], [1.0, 0.0, 0.0, 0.0]),
         _ => return None,
     };
-    Some(rounded(
-        centred.map(DoubleDouble::from),
-        power.map(DoubleDouble::from),
-    ))
+    Some(rounded(centred.map(DoubleDouble::from), power.map(DoubleDouble::from)))
 }

@@ -42,10 +42,7 @@ impl WideCrossing {
     }
 
     pub fn rounded(&self) -> Crossing {
-        Crossing {
-            x: self.x.to_f64(),
-            s: self.s.to_f64(),
-        }
+        Crossing { x: self.x.to_f64(), s: self.s.to_f64() }
     }
 }
 

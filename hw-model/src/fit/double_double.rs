@@ -28,19 +28,13 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
 /// a + b exactly, for |a| ≥ |b| or a = 0 (Dekker).
 fn fast_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
-    DoubleDouble {
-        hi,
-        lo: b - (hi - a),
-    }
+    DoubleDouble { hi, lo: b - (hi - a) }
 }
 
 /// a·b exactly: a fused multiply-add rounds once, and the error of a product is an f64.
 fn two_product(a: f64, b: f64) -> DoubleDouble {
     let hi = a * b;
-    DoubleDouble {
-        hi,
-        lo: a.mul_add(b, -hi),
-    }
+    DoubleDouble { hi, lo: a.mul_add(b, -hi) }
 }
 
 impl DoubleDouble {
@@ -75,10 +69,7 @@ impl DoubleDouble {
             scale *= 0.5;
             halvings += 1;
         }
-        let t = Self {
-            hi: self.hi * scale,
-            lo: self.lo * scale,
-        };
+        let t = Self { hi: self.hi * scale, lo: self.lo * scale };
         // t·(1 + t/2·(1 + t/3·(1 + …)))
         let mut series = Self::ONE;
         for term in (2..=12).rev() {
@@ -112,10 +103,7 @@ impl From<f64> for DoubleDouble {
 impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
-        Self {
-            hi: -self.hi,
-            lo: -self.lo,
-        }
+        Self { hi: -self.hi, lo: -self.lo }
     }
 }
 

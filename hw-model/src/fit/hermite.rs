@@ -46,19 +46,12 @@ pub(super) fn hermite(exponent: f64, at_q: &WideCrossing) -> Cubic {
         return monomial;
     }
     let (p, q) = (at_q.s, at_q.x);
-    let Differences {
-        first_less_one,
-        bend,
-    } = Differences::new(exponent, at_q);
+    let Differences { first_less_one, bend } = Differences::new(exponent, at_q);
     let d2 = bend / p;
     let d3 = at_q.ratio * less_one(exponent) / q - d2;
     let b = d2 + d3 * (DoubleDouble::ONE + q + q);
     assemble::through_origin(
-        [
-            DoubleDouble::ONE + (first_less_one + bend) - p * p * d3,
-            d2 - (p + p) * d3,
-            -d3,
-        ],
+        [DoubleDouble::ONE + (first_less_one + bend) - p * p * d3, d2 - (p + p) * d3, -d3],
         b,
     )
 }

@@ -55,10 +55,7 @@ impl Levels {
 
 impl Default for Levels {
     fn default() -> Self {
-        Self {
-            q: 0.5,
-            g: 1.0 / 18.0,
-        }
+        Self { q: 0.5, g: 1.0 / 18.0 }
     }
 }
 
@@ -113,10 +110,7 @@ mod tests {
     #[test]
     fn json_is_checked_and_defaults() {
         let parse = |text| serde_json::from_str::<Levels>(text);
-        assert_eq!(
-            parse(r#"{"q":0.6,"g":0.1}"#).unwrap(),
-            Levels::new(0.6, 0.1).unwrap()
-        );
+        assert_eq!(parse(r#"{"q":0.6,"g":0.1}"#).unwrap(), Levels::new(0.6, 0.1).unwrap());
         assert_eq!(parse("{}").unwrap(), Levels::default());
         assert!(parse(r#"{"q":0.1,"g":0.6}"#).is_err());
         assert!(parse(r#"{"Q":0.5}"#).is_err());

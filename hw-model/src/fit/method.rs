@@ -86,15 +86,9 @@ mod tests {
         let message = UnknownMethod("cubic".into()).to_string();
         for method in Method::ALL {
             assert_eq!(method.name().parse(), Ok(method));
-            assert_eq!(
-                serde_json::to_string(&method).unwrap(),
-                format!("\"{method}\"")
-            );
+            assert_eq!(serde_json::to_string(&method).unwrap(), format!("\"{method}\""));
             assert!(message.contains(method.name()), "{message}");
         }
-        assert_eq!(
-            "Hermite".parse::<Method>(),
-            Err(UnknownMethod("Hermite".into()))
-        );
+        assert_eq!("Hermite".parse::<Method>(), Err(UnknownMethod("Hermite".into())));
     }
 }

@@ -85,16 +85,10 @@ pub fn fit(method: Method, exponent: f64, levels: Levels) -> Result<Fit, FitErro
         Method::Tangent => Curve::Cubic(tangent::tangent(exponent, &at_q)),
         Method::Quadratic => Curve::Cubic(quadratic::quadratic(exponent, &at_q)),
         Method::Rational => Curve::Rational(rational()),
-        Method::Composite => Curve::Composite {
-            epicentre: hermite(),
-            tail: rational(),
-        },
+        Method::Composite => Curve::Composite { epicentre: hermite(), tail: rational() },
         Method::Schlick => Curve::Rational(Rational::schlick(exponent)),
     };
-    Ok(Fit {
-        epicentre: at_q.rounded(),
-        curve,
-    })
+    Ok(Fit { epicentre: at_q.rounded(), curve })
 }
 
 /// Where x^n crosses `level`, 0 < level ≤ 1: x = level^(1/n), and s = 1 − x without cancellation.
@@ -159,10 +153,7 @@ impl Fit {
     #[must_use]
     pub const fn cubic(&self) -> Option<&Cubic> {
         match &self.curve {
-            Curve::Cubic(cubic)
-            | Curve::Composite {
-                epicentre: cubic, ..
-            } => Some(cubic),
+            Curve::Cubic(cubic) | Curve::Composite { epicentre: cubic, .. } => Some(cubic),
             Curve::Rational(_) => None,
         }
     }

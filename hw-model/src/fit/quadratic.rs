@@ -14,17 +14,11 @@ pub(super) fn quadratic(exponent: f64, at_q: &WideCrossing) -> Cubic {
     if let Some(monomial) = assemble::monomial(exponent, &[1, 2]) {
         return monomial;
     }
-    let Differences {
-        first_less_one,
-        bend,
-    } = Differences::new(exponent, at_q);
+    let Differences { first_less_one, bend } = Differences::new(exponent, at_q);
     let zero = DoubleDouble::from(0.0);
     // k1 − 1 vanishes with n − 1, and so does d: it is taken before the 1 is added.
     let slope_less_one = first_less_one + bend;
     let k1 = DoubleDouble::ONE + slope_less_one;
     let k2 = bend / at_q.s;
-    assemble::rounded(
-        [k1, k2, zero],
-        [zero, k2, k1 - (k2 + k2), k2 - slope_less_one],
-    )
+    assemble::rounded([k1, k2, zero], [zero, k2, k1 - (k2 + k2), k2 - slope_less_one])
 }

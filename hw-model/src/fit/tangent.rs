@@ -32,8 +32,5 @@ pub(super) fn tangent(exponent: f64, at_q: &WideCrossing) -> Cubic {
     let v = half_log_ratio.exp() * log_r_over_k.exp_m1() / at_q.s;
     let (a, c) = (u * u, v * v);
     let zero = DoubleDouble::from(0.0);
-    assemble::rounded(
-        [u + u + one, u * (u + two), a],
-        [a, -(u * v + u * v), c, zero],
-    )
+    assemble::rounded([u + u + one, u * (u + two), a], [a, -(u * v + u * v), c, zero])
 }

@@ -128,12 +128,7 @@ proptest! {
 #[test]
 fn the_first_powers_are_limits() {
     let levels = Levels::default();
-    for method in [
-        Method::Hermite,
-        Method::ThreePoint,
-        Method::Tangent,
-        Method::Quadratic,
-    ] {
+    for method in [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic] {
         for n in [1.0_f64, 2.0, 3.0] {
             let (_, at) = cubic(method, n, levels);
             let (_, above) = cubic(method, n.next_up(), levels);
@@ -168,11 +163,7 @@ fn every_method_fits_the_greatest_exponent() {
     for method in Method::ALL {
         let fit = fit(method, MAX_EXPONENT, Levels::default()).unwrap();
         let half = fit.value_at_s(fit.epicentre.s);
-        let wanted = if method == Method::Schlick {
-            0.590_616_1
-        } else {
-            0.5
-        };
+        let wanted = if method == Method::Schlick { 0.590_616_1 } else { 0.5 };
         assert!((half - wanted).abs() < 1e-7, "{method}: {half}");
     }
 }

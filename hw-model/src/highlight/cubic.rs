@@ -77,11 +77,7 @@ impl Centred {
             return None;
         }
         let root = discriminant.sqrt();
-        let s = if k2 >= 0.0 {
-            k1 / (k2 + root)
-        } else {
-            (k2 - root) / (3.0 * k3)
-        };
+        let s = if k2 >= 0.0 { k1 / (k2 + root) } else { (k2 - root) / (3.0 * k3) };
         (s > 0.0 && s.is_finite()).then_some(s)
     }
 }
@@ -96,23 +92,14 @@ impl Power {
 
 impl From<Centred> for Power {
     fn from(Centred { k1, k2, k3 }: Centred) -> Self {
-        Self {
-            a: k3,
-            b: k2 - 3.0 * k3,
-            c: k1 - 2.0 * k2 + 3.0 * k3,
-            d: 1.0 - k1 + k2 - k3,
-        }
+        Self { a: k3, b: k2 - 3.0 * k3, c: k1 - 2.0 * k2 + 3.0 * k3, d: 1.0 - k1 + k2 - k3 }
     }
 }
 
 /// Takes f(1) = 1 for granted: a + b + c + d = 1, so d carries no information of its own.
 impl From<Power> for Centred {
     fn from(Power { a, b, c, .. }: Power) -> Self {
-        Self {
-            k1: 3.0 * a + 2.0 * b + c,
-            k2: 3.0 * a + b,
-            k3: a,
-        }
+        Self { k1: 3.0 * a + 2.0 * b + c, k2: 3.0 * a + b, k3: a }
     }
 }
 
@@ -128,20 +115,11 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const CUBE: Centred = Centred {
-        k1: 3.0,
-        k2: 3.0,
-        k3: 1.0,
-    };
+    const CUBE: Centred = Centred { k1: 3.0, k2: 3.0, k3: 1.0 };
 
     #[test]
     fn forms_of_the_cube() {
-        let power = Power {
-            a: 1.0,
-            b: 0.0,
-            c: 0.0,
-            d: 0.0,
-        };
+        let power = Power { a: 1.0, b: 0.0, c: 0.0, d: 0.0 };
         assert_eq!(Power::from(CUBE), power);
         assert_eq!(Centred::from(power), CUBE);
         assert_eq!((CUBE.value(0.5), power.value(0.5)), (0.125, 0.125));

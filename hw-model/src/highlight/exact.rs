@@ -69,10 +69,7 @@ impl ExactPower {
         }
         // The cap on the bits does not bound the exponent when fraction = 0; then k is 0 or 1.
         let numerator = UBig::from(k).pow(exponent as usize);
-        Ok(Self {
-            numerator,
-            log2_denominator,
-        })
+        Ok(Self { numerator, log2_denominator })
     }
 
     /// The numerator over the denominator 2^[`log2_denominator`](Self::log2_denominator).
@@ -188,9 +185,7 @@ fn nearest_f64(magnitude: &UBig, exponent: i64) -> f64 {
     let drop_bits = drop as usize;
     let kept = low_word(&(magnitude >> drop_bits));
     let half = magnitude.bit(drop_bits - 1);
-    let below_half = magnitude
-        .trailing_zeros()
-        .is_some_and(|zeros| zeros < drop_bits - 1);
+    let below_half = magnitude.trailing_zeros().is_some_and(|zeros| zeros < drop_bits - 1);
     let up = half && (below_half || kept & 1 == 1);
     scale(kept + u64::from(up), exponent + drop)
 }
@@ -220,10 +215,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn ratio(numerator: u64, log2_denominator: u64) -> ExactPower {
-        ExactPower {
-            numerator: numerator.into(),
-            log2_denominator,
-        }
+        ExactPower { numerator: numerator.into(), log2_denominator }
     }
 
     #[test]
@@ -256,10 +248,7 @@ mod tests {
         assert_eq!(ratio(3, 1076).to_f64(), 5e-324);
         assert_eq!(ratio(3, 1075).to_f64(), 1e-323);
         assert_eq!(ratio(1, 1076).to_f64(), 0.0);
-        assert_eq!(
-            ratio((1 << 52) - 1, 1074).to_f64(),
-            f64::MIN_POSITIVE.next_down()
-        );
+        assert_eq!(ratio((1 << 52) - 1, 1074).to_f64(), f64::MIN_POSITIVE.next_down());
         let huge = UBig::from(u64::MAX) << 960;
         assert_eq!(nearest_f64(&huge, 0), f64::INFINITY);
         assert_eq!(nearest_f64(&huge, -1), 2.0_f64.powi(1023));

@@ -50,10 +50,7 @@ mod tests {
         ] {
             let got = phong_at_s(n, s);
             let error = (got / expected - 1.0).abs();
-            assert!(
-                error <= 5e-16,
-                "n = {n}, s = {s}: {got:e} is off by {error:e}"
-            );
+            assert!(error <= 5e-16, "n = {n}, s = {s}: {got:e} is off by {error:e}");
         }
     }
 }

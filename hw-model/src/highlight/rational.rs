@@ -21,11 +21,7 @@ impl Rational {
     /// Schlick's approximation for the exponent n ≥ 1: a = n, b = n − 1.
     #[must_use]
     pub fn schlick(exponent: f64) -> Self {
-        Self {
-            a: exponent,
-            b: exponent - 1.0,
-            at_one: 1.0,
-        }
+        Self { a: exponent, b: exponent - 1.0, at_one: 1.0 }
     }
 
     /// The value at x = 1 − s, s in [0, 1].
