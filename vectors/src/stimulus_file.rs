@@ -9,12 +9,13 @@
 //! | `ready`  | 1 when the receiver takes an output                                | 1       |
 //! | `reset`  | 1 to reset                                                         | 0       |
 //!
-//! The first line names the columns, in any order. Lines that begin with `#` are comments. Where
+//! The first line names the columns, in any order. Empty lines and lines that begin with `#` do not
+//! count. Where
 //! `valid` is 0, `n` and `x` may be empty. x need not lie in [0, 1], but the format must hold it. An
 //! exponent without a ROM word is no mistake: the hardware answers it with 0 and a status flag.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use hw_model::format::{Overflow, QFormat};
@@ -42,7 +43,7 @@ pub struct Cycle {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StimulusError {
-    /// The file cannot be opened.
+    /// The file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Io {
         /// The file.
@@ -50,13 +51,13 @@ pub enum StimulusError {
         /// What the system said.
         source: io::Error,
     },
-    /// The file cannot be read on, or is not text.
-    #[error("cannot read {}: {source}", path.display())]
-    Csv {
+    /// A line is not text.
+    #[error("{}:{line}: the line is not UTF-8; write the file as plain text", path.display())]
+    NotText {
         /// The file.
         path: PathBuf,
-        /// What is wrong, with the line.
-        source: csv::Error,
+        /// The line, counted from 1.
+        line: u64,
     },
     /// The line of column names.
     #[error("{}:{line}: {problem}", path.display())]
@@ -120,31 +121,27 @@ pub fn parse_stimulus(
     rom: &Rom,
     input: QFormat,
 ) -> Result<Vec<Cycle>, StimulusError> {
-    let mut reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(from);
-    let in_file = |source| StimulusError::Csv { path: path.to_owned(), source };
-    let header = reader.headers().map_err(in_file)?.clone();
-    if header.is_empty() {
-        return Err(StimulusError::Empty(path.to_owned()));
-    }
-    let columns = Columns::find(&header).map_err(|problem| StimulusError::Header {
-        path: path.to_owned(),
-        line: header.position().map_or(1, csv::Position::line),
-        problem,
-    })?;
+    let mut columns: Option<Columns> = None;
     let mut cycles = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(in_file)?;
-        let line = record.position().map_or(0, csv::Position::line);
+    for (line, text) in (1..).zip(BufReader::new(from).lines()) {
+        let text = text.map_err(|source| unreadable(path, line, source))?;
+        let text = text.trim_start_matches(BYTE_ORDER_MARK).trim();
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        let fields: Vec<&str> = text.split(',').map(unquoted).collect();
         let path = || path.to_owned();
-        if record.len() != header.len() {
-            let (found, expected) = (record.len(), header.len());
+        let Some(columns) = &columns else {
+            let found = Columns::find(&fields);
+            let header = |problem| StimulusError::Header { path: path(), line, problem };
+            columns = Some(found.map_err(header)?);
+            continue;
+        };
+        if fields.len() != columns.count {
+            let (found, expected) = (fields.len(), columns.count);
             return Err(StimulusError::Fields { path: path(), line, found, expected });
         }
-        let cycle = columns.cycle(&record, rom, input);
+        let cycle = columns.cycle(&fields, rom, input);
         cycles.push(cycle.map_err(|Wrong { field, problem }| StimulusError::Field {
             path: path(),
             line,
@@ -155,6 +152,24 @@ pub fn parse_stimulus(
     if cycles.is_empty() { Err(StimulusError::Empty(path.to_owned())) } else { Ok(cycles) }
 }
 
+/// What some editors put in front of the first line.
+const BYTE_ORDER_MARK: char = '\u{feff}';
+
+fn unreadable(path: &Path, line: u64, source: io::Error) -> StimulusError {
+    let path = path.to_owned();
+    match source.kind() {
+        io::ErrorKind::InvalidData => StimulusError::NotText { path, line },
+        _ => StimulusError::Io { path, source },
+    }
+}
+
+/// A field without the space around it, or the quotes that some programs put around every field.
+fn unquoted(field: &str) -> &str {
+    let field = field.trim();
+    let inner = field.strip_prefix('"').and_then(|field| field.strip_suffix('"'));
+    inner.unwrap_or(field)
+}
+
 /// A field that cannot be used.
 struct Wrong {
     field: &'static str,
@@ -163,6 +178,7 @@ struct Wrong {
 
 #[derive(Debug, Default)]
 struct Columns {
+    count: usize,
     n: usize,
     x: usize,
     /// True when the column of x holds bits.
@@ -175,10 +191,10 @@ struct Columns {
 const KNOWN: &str = "the columns are n, x (or x_bits), valid, ready, reset";
 
 impl Columns {
-    fn find(header: &csv::StringRecord) -> Result<Self, String> {
+    fn find(header: &[&str]) -> Result<Self, String> {
         let (mut n, mut x, mut x_bits) = (None, None, None);
-        let mut columns = Self::default();
-        for (place, name) in header.iter().enumerate() {
+        let mut columns = Self { count: header.len(), ..Self::default() };
+        for (place, &name) in header.iter().enumerate() {
             let column = match name {
                 "n" => &mut n,
                 "x" => &mut x,
@@ -204,8 +220,8 @@ impl Columns {
         Ok(columns)
     }
 
-    fn cycle(&self, record: &csv::StringRecord, rom: &Rom, input: QFormat) -> Result<Cycle, Wrong> {
-        let text = |place: usize| record.get(place).unwrap_or_default();
+    fn cycle(&self, fields: &[&str], rom: &Rom, input: QFormat) -> Result<Cycle, Wrong> {
+        let text = |place: usize| fields.get(place).copied().unwrap_or_default();
         let flag = |field, place: Option<usize>, default| match place.map(text) {
             None => Ok(default),
             Some("0") => Ok(false),

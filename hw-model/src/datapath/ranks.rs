@@ -31,7 +31,7 @@ const STAGES: usize = 3;
 pub struct PolynomialFormats {
     /// The variable, x or u.
     pub v: QFormat,
-    /// c3, c2, c1, c0.
+    /// c0, c1, c2, c3.
     pub coefficients: [QFormat; 4],
     /// After stage 1.
     pub t1: QFormat,

@@ -35,6 +35,18 @@ impl Lattice {
     }
 }
 
+/// The x of `range` that are a power of two away from 0 or from `greatest`.
+///
+/// A coefficient that itself ends in many zeros (B = 2(n − 1) of the tail is an integer) makes a tie
+/// only of an x that ends in few, and a lattice has none of those.
+pub fn powers_apart(range: &RangeInclusive<i64>, greatest: i64) -> impl Iterator<Item = i64> {
+    (0..i64::BITS - 1)
+        .map(|place| 1_i64 << place)
+        .take_while(move |&power| power <= greatest)
+        .flat_map(move |power| [power, greatest - power])
+        .filter(|x| range.contains(x))
+}
+
 /// From `x`, in steps that halve from `step` to 1, to the x of `range` with the greatest score that
 /// can be reached uphill. On a curve with one summit between two lattice points that is the summit.
 pub fn climb<S: PartialOrd>(

@@ -11,7 +11,7 @@
 //! | ends of the input format      | facing away, far above 1                                   |
 //! | addresses without a word      | the status flag and 0                                      |
 //!
-//! Every row of the ROM has its own list ([`row`]): eight corners that matter most, the same in every
+//! Every row of the ROM has its own list: eight corners that matter most, the same in every
 //! row, then the rest, which starts at another corner in each row. They are taken in rounds, one
 //! of each row, so that a count too small for all is shared fairly, and every kind is met in some
 //! row. The addresses without a word come after the first round.

@@ -9,7 +9,7 @@ use hw_model::quantise::{real, round_scaled};
 use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 
-use super::lattice::{Lattice, climb};
+use super::lattice::{Lattice, climb, powers_apart};
 use super::ties;
 use crate::kind::Kind;
 use crate::reference::reference;
@@ -199,13 +199,14 @@ impl<'a> Survey<'a> {
         self.best(part, error).map(|x| Corner { kind, x })
     }
 
-    /// For each line that rounds, the lattice point nearest to a tie.
+    /// For each line that rounds, the x nearest to a tie, of the lattice and a few more.
     fn ties(&self) -> Vec<Corner> {
         let lines = ties::lines(self.design.datapath());
         let mut nearest: Vec<Option<(f64, i64)>> = vec![None; lines.len()];
         for region in [Region::Polynomial, Region::Tail] {
-            let points = self.part(region).map(|part| part.lattice.points.as_slice());
-            for &x in points.unwrap_or_default() {
+            let Some(part) = self.part(region) else { continue };
+            let lattice = part.lattice.points.iter().copied();
+            for x in lattice.chain(powers_apart(&part.range, self.greatest)) {
                 let last = self.last(x);
                 for (line, nearest) in lines.iter().zip(&mut nearest) {
                     let distance = line.distance(&last);

@@ -4,7 +4,6 @@
 //! result, so the sum before the rounding is computed again by the same line with every bit kept.
 
 use hw_model::datapath::front_end::{Region, Variable};
-use hw_model::datapath::ranks::Formats;
 use hw_model::datapath::stage::{Fractions, MultiplyAdd};
 use hw_model::datapath::{Datapath, Signals};
 use hw_model::rom::FieldName;
@@ -26,7 +25,7 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
     let mut lines = Vec::new();
     let stages = datapath.stages().map(|stages| stages.as_slice()).unwrap_or_default();
     for (index, stage) in stages.iter().enumerate().rev() {
-        let fractions = stage_fractions(datapath.formats(), index);
+        let fractions = stage_fractions(datapath, index);
         lines.extend(exact_line(["t1", "t2", "t3"][index], stage, fractions));
     }
     if let Some(divider) = datapath.divider() {
@@ -48,15 +47,18 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
     lines
 }
 
-fn stage_fractions(formats: &Formats, index: usize) -> Option<Fractions> {
-    let formats = formats.polynomial.as_ref()?;
-    let multiplicand = [formats.coefficients[0], formats.t1, formats.t2][index];
-    Some(Fractions {
-        multiplicand: multiplicand.fraction_bits(),
-        variable: formats.v.fraction_bits(),
-        addend: formats.coefficients[index + 1].fraction_bits(),
-        result: 0,
-    })
+fn stage_fractions(datapath: &Datapath, index: usize) -> Option<Fractions> {
+    let formats = datapath.formats().polynomial.as_ref()?;
+    let coefficient = |name| {
+        let field = datapath.rom().layout().field(name);
+        field.map(|field| field.format.fraction_bits())
+    };
+    let (multiplicand, addend) = match index {
+        0 => (coefficient(FieldName::C3)?, coefficient(FieldName::C2)?),
+        1 => (formats.t1.fraction_bits(), coefficient(FieldName::C1)?),
+        _ => (formats.t2.fraction_bits(), coefficient(FieldName::C0)?),
+    };
+    Some(Fractions { multiplicand, variable: formats.v.fraction_bits(), addend, result: 0 })
 }
 
 /// None where nothing is dropped.
@@ -128,4 +130,45 @@ fn operands(register: &str, last: &Signals) -> [i64; 3] {
 fn from_half(value: i128, drop: u32) -> f64 {
     let dropped = value & ((1 << drop) - 1);
     (dropped - (1 << (drop - 1))).abs() as f64 / f64::from(drop).exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hw_model::design::Design;
+    use hw_model::presets;
+    use hw_model::rounding::round_shift;
+
+    /// The sum that is computed again must be the one the data path rounded.
+    #[test]
+    fn the_sum_before_the_rounding_gives_the_register() {
+        let mut compared = 0;
+        for preset in presets::ALL {
+            let design = Design::new(preset.config().unwrap()).unwrap();
+            let rounding = design.config().rounding;
+            for address in [0, 1, 63, 200] {
+                for i in 0..64 {
+                    let x = design.config().input.one() / 64 * i + 12_345 * i;
+                    let last = design.datapath().evaluate(address, x);
+                    for line in lines(design.datapath()) {
+                        let Line::MultiplyAdd { register, exact, drop } = line else { continue };
+                        if line.region() != last.region {
+                            continue;
+                        }
+                        let [a, v, c] = operands(register, &last).map(i128::from);
+                        let wanted = match register {
+                            "t1" => last.t1,
+                            "t2" => last.t2,
+                            "t3" => last.t3,
+                            _ => last.division.divisor,
+                        };
+                        let got = round_shift(exact.apply(a, v, c), drop, rounding);
+                        assert_eq!(got, i128::from(wanted), "{} {register} {x}", preset.name);
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert!(compared > 500, "{compared}");
+    }
 }

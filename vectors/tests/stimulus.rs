@@ -1,0 +1,119 @@
+//! What every way of choosing promises.
+
+mod common;
+
+use std::collections::HashSet;
+
+use hw_model::design::Design;
+use proptest::prelude::*;
+use vectors::stimulus::Stimulus;
+use vectors::{Case, Kind, Sample, Strategy};
+
+fn samples(design: &Design, strategy: Strategy, count: u64, seed: u64) -> Vec<Sample> {
+    let stimulus = Stimulus::new(design, strategy, count, seed);
+    let samples: Vec<Sample> = stimulus.samples().collect();
+    assert_eq!(samples.len() as u128, stimulus.len());
+    samples
+}
+
+#[test]
+fn names_come_back() {
+    for strategy in Strategy::ALL {
+        assert_eq!(strategy.to_string().parse(), Ok(strategy));
+    }
+    let error = "corner".parse::<Strategy>().unwrap_err().to_string();
+    assert!(error.contains("corners, even"), "{error}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn every_case_is_legal_every_row_is_met_and_the_same_seed_gives_the_same(
+        which in 0_usize..3, strategy in prop::sample::select(&Strategy::ALL[..4]),
+        count in 1_u64..300, seed in any::<u64>(),
+    ) {
+        let design = &common::all_small()[which];
+        let (rom, input) = (design.rom(), design.config().input);
+        let samples = samples(design, strategy, count, seed);
+        prop_assert!(samples.len() as u64 <= count);
+        prop_assert!(strategy == Strategy::Corners || samples.len() as u64 == count);
+        for Sample { case, .. } in &samples {
+            prop_assert!(input.holds(case.x.into()) && case.address >> rom.address_width() == 0);
+            prop_assert_eq!(*case, Case::at(rom, case.address, case.x));
+        }
+        let rows: HashSet<u32> = samples
+            .iter().map(|sample| sample.case.address)
+            .filter(|&address| (address as usize) < rom.depth()).collect();
+        prop_assert_eq!(rows.len(), rom.depth().min(count as usize));
+        prop_assert_eq!(samples, self::samples(design, strategy, count, seed));
+    }
+}
+
+#[test]
+fn a_seed_changes_the_random_cases_and_only_them() {
+    let design = common::small();
+    for (strategy, changes) in [(Strategy::Mixed, true), (Strategy::Even, false)] {
+        let [one, two] = [1, 2].map(|seed| samples(&design, strategy, 64, seed));
+        assert_eq!(one != two, changes, "{strategy}");
+        let others = |samples: &[Sample]| -> Vec<Sample> {
+            samples.iter().filter(|sample| sample.kind != Kind::Random).copied().collect()
+        };
+        assert_eq!(others(&one), others(&two));
+    }
+}
+
+#[test]
+fn a_mixture_has_its_shares() {
+    let design = common::preset("compact");
+    let samples = samples(&design, Strategy::Mixed, 2048, 7);
+    let count = |kind| samples.iter().filter(|sample| sample.kind == kind).count();
+    assert_eq!((count(Kind::Even), count(Kind::Random)), (256, 256));
+}
+
+#[test]
+fn the_even_grid_is_even() {
+    let design = common::preset("compact");
+    let one = design.config().input.one();
+    let mut xs: Vec<i64> =
+        samples(&design, Strategy::Even, 1024, 0).iter().map(|sample| sample.case.x).collect();
+    xs.sort_unstable();
+    let wanted: Vec<i64> = (0..1024).map(|i| (2 * i * one + 1023) / 2046).collect();
+    assert_eq!(xs, wanted);
+
+    let row: Vec<i64> = samples(&design, Strategy::Even, 1024, 0)
+        .iter()
+        .filter(|sample| sample.case.address == 100)
+        .map(|sample| sample.case.x)
+        .collect();
+    assert_eq!(row.len(), 4);
+    for pair in row.windows(2) {
+        assert!((pair[0] - pair[1] - one / 4).abs() < one / 1000, "{row:?}");
+    }
+}
+
+#[test]
+fn random_cases_reach_every_part_of_the_input() {
+    let design = common::preset("paper");
+    let depth = design.rom().depth() as u32;
+    let samples = samples(&design, Strategy::Random, 4096, 1);
+    let one = design.config().input.one();
+    let count =
+        |holds: &dyn Fn(&Case) -> bool| samples.iter().filter(|sample| holds(&sample.case)).count();
+    // Expected: 1/64 without a word after the first round, 1/16 above 1, 3/8 at least above the cut.
+    assert!((30..100).contains(&count(&|case| case.address >= depth)));
+    assert!((180..340).contains(&count(&|case| case.x > one)));
+    let cut = |case: &Case| design.rows().get(case.address as usize).map_or(one, |row| row.cut);
+    assert!(count(&|case| (cut(case)..=one).contains(&case.x)) > 1200);
+}
+
+#[test]
+fn the_exhaustive_strategy_gives_every_input_once() {
+    for design in common::all_small() {
+        let (rom, input) = (design.rom(), design.config().input);
+        let cases: HashSet<(u32, i64)> = samples(&design, Strategy::Exhaustive, 0, 0)
+            .iter()
+            .map(|sample| (sample.case.address, sample.case.x))
+            .collect();
+        assert_eq!(cases.len(), 1 << (rom.address_width() + input.width()));
+    }
+}

@@ -1,0 +1,138 @@
+//! Files appear whole, or not at all.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+use vectors::{OutputError, OutputSet, WholeFile};
+
+fn names(directory: &Path) -> Vec<String> {
+    let entries = fs::read_dir(directory).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn committed_files_are_all_there_and_nothing_else() {
+    let place = tempfile::tempdir().unwrap();
+    let directory = place.path().join("a/b");
+    let mut set = OutputSet::create(&directory).unwrap();
+    let mut long = set.file("long").unwrap();
+    set.write("short", "s\n").unwrap();
+    for _ in 0..100_000 {
+        long.write_all(b"0123456789\n").unwrap();
+    }
+    set.keep(long).unwrap();
+    assert!(names(&directory).iter().all(|name| name.starts_with('.')), "nothing has its name yet");
+    let paths = set.commit().unwrap();
+    assert_eq!(paths, [directory.join("short"), directory.join("long")]);
+    assert_eq!(names(&directory), ["long", "short"]);
+    assert_eq!(fs::read(directory.join("long")).unwrap().len(), 1_100_000);
+}
+
+#[test]
+fn what_is_not_committed_leaves_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let mut set = OutputSet::create(place.path().join("new/deep")).unwrap();
+    set.write("a", "a").unwrap();
+    let begun = set.file("b").unwrap();
+    drop(begun);
+    drop(set);
+    assert!(names(place.path()).is_empty());
+
+    fs::write(place.path().join("old"), "kept").unwrap();
+    let mut file = WholeFile::create(place.path().join("old")).unwrap();
+    file.write_all(b"lost").unwrap();
+    drop(file);
+    assert_eq!(fs::read(place.path().join("old")).unwrap(), b"kept");
+    assert_eq!(names(place.path()), ["old"]);
+    drop(WholeFile::create(place.path().join("x/y/trace.csv")).unwrap());
+    assert_eq!(names(place.path()), ["old"]);
+}
+
+#[test]
+fn a_file_begun_and_not_kept_stops_the_set() {
+    let place = tempfile::tempdir().unwrap();
+    let mut set = OutputSet::create(place.path()).unwrap();
+    set.write("a", "a").unwrap();
+    let begun = set.file("b").unwrap();
+    let error = set.commit().unwrap_err();
+    drop(begun);
+    assert!(matches!(error, OutputError::Unfinished(path) if path.ends_with("b")));
+    assert!(names(place.path()).is_empty());
+}
+
+#[test]
+fn one_whole_file_replaces_the_old_one() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("t/trace.csv");
+    for text in ["first, and longer", "second"] {
+        let mut file = WholeFile::create(&path).unwrap();
+        file.write_all(text.as_bytes()).unwrap();
+        assert_eq!(file.commit().unwrap(), path);
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn others_may_read_what_the_umask_lets_them() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = tempfile::tempdir().unwrap();
+    let usual = place.path().join("usual");
+    fs::write(&usual, "").unwrap();
+    let mut set = OutputSet::create(place.path()).unwrap();
+    set.write("whole", "").unwrap();
+    set.commit().unwrap();
+    let mode = |name| fs::metadata(place.path().join(name)).unwrap().permissions().mode();
+    assert_eq!(mode("whole"), mode("usual"));
+}
+
+#[test]
+fn a_file_in_the_way_of_the_directory_is_named() {
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("file");
+    fs::write(&file, "kept").unwrap();
+    for directory in [file.clone(), file.join("below")] {
+        let error = OutputSet::create(&directory).unwrap_err();
+        let text = error.to_string();
+        assert!(matches!(error, OutputError::Directory { .. }), "{text}");
+        assert!(text.contains(directory.to_str().unwrap()), "{text}");
+        assert!(text.contains("a file is in the way"), "{text}");
+    }
+    assert_eq!(names(place.path()), ["file"]);
+}
+
+/// A directory that refuses files even to root.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_unwritable_directory_is_named() {
+    let error = WholeFile::create("/proc/self/fdinfo/trace.csv").unwrap_err();
+    let text = error.to_string();
+    assert!(matches!(error, OutputError::Write { .. }), "{text}");
+    assert!(text.starts_with("cannot write /proc/self/fdinfo/trace.csv: "), "{text}");
+    let error = OutputSet::create("/proc/self/fdinfo/out").unwrap_err();
+    assert!(matches!(error, OutputError::Directory { .. }), "{error}");
+}
+
+#[test]
+fn neither_a_device_nor_a_directory_is_replaced() {
+    let place = tempfile::tempdir().unwrap();
+    fs::create_dir(place.path().join("sub")).unwrap();
+    let error = WholeFile::create(place.path().join("sub")).unwrap_err();
+    assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
+    let mut set = OutputSet::create(place.path()).unwrap();
+    assert!(matches!(set.file("sub").unwrap_err(), OutputError::NotAFile(_)));
+    for name in ["", "..", "sub/inner", "/absolute"] {
+        let error = set.file(name).unwrap_err();
+        assert!(matches!(error, OutputError::NoName(_) | OutputError::NotAFile(_)), "{name}");
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/dev/null", place.path().join("link")).unwrap();
+        let error = WholeFile::create(place.path().join("link")).unwrap_err();
+        assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
+    }
+}
