@@ -1,7 +1,10 @@
 //! The clocked highlight pipeline, its analyses, and the `blysk` command.
 
 pub mod analysis;
+pub mod cmd;
 pub mod pipeline;
+pub mod plot;
+pub mod report;
 pub mod run;
 pub mod trace;
 pub mod waves;

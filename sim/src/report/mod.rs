@@ -1,0 +1,4 @@
+//! The files and figures of a report.
+
+pub mod figures;
+pub mod files;
