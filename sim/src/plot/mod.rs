@@ -1,0 +1,27 @@
+//! Everything that is drawn for people.
+//!
+//! A [`Chart`] is plain data: axes, series, reference lines. It becomes an SVG with
+//! [`Chart::to_svg`], and an SVG becomes a PNG with [`svg_to_png`]. The crates that do the drawing
+//! are named only in `draw.rs` and `raster.rs`, so that either can be replaced without touching a
+//! caller.
+//!
+//! A picture is a function of its data: no system fonts, no clock, no random identifiers. The same
+//! chart gives the same bytes, so a generated figure can be kept under version control and compared.
+
+mod axis;
+mod chart;
+mod draw;
+mod error;
+mod figures;
+mod raster;
+mod reference;
+mod style;
+#[cfg(test)]
+mod tests;
+mod words;
+
+pub use axis::{Axis, Scale};
+pub use chart::{Chart, Mark, ReferenceLine, Series};
+pub use error::PlotError;
+pub use figures::{Curve, angle_grid, error_versus_exponent, intensity_versus_angle};
+pub use raster::svg_to_png;

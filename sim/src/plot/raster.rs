@@ -1,0 +1,52 @@
+//! From SVG to PNG: the only file that knows the renderer.
+
+use std::sync::{Arc, LazyLock};
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{self, Options, Tree, fontdb};
+
+use super::PlotError;
+
+/// The one font there is: a picture must not depend on what the machine has installed.
+static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
+const FONT_NAME: &str = "DejaVu Sans";
+
+/// The longest side of a PNG, in pixels.
+const LONGEST_SIDE: f32 = 16_384.0;
+
+/// Loading the font costs more than drawing a chart, so it is done once.
+static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
+    let mut fonts = fontdb::Database::new();
+    fonts.load_font_data(FONT.to_vec());
+    fonts.set_sans_serif_family(FONT_NAME);
+    Arc::new(fonts)
+});
+
+/// Draws an SVG as PNG with `scale` pixels to the SVG unit; 2 suits a screen, 4 suits print.
+///
+/// # Errors
+/// When the text is not an SVG, or the picture would have no pixels or more than 16 384 a side.
+pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
+    let tree = parse(svg)?;
+    let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
+    let refused = PlotError::Size { width, height, scale };
+    // The comparisons are false for a scale that is not a number.
+    let sensible = |side: f32| side > 0.0 && side <= LONGEST_SIDE;
+    if !(scale > 0.0 && sensible(width) && sensible(height)) {
+        return Err(refused);
+    }
+    let mut pixels = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or(refused)?;
+    let transform = Transform::from_scale(scale, scale);
+    resvg::render(&tree, transform, &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| PlotError::Png(error.to_string()))
+}
+
+/// Reads an SVG with the bundled font and no other.
+pub(super) fn parse(svg: &str) -> Result<Tree, PlotError> {
+    let options = Options {
+        fontdb: Arc::clone(&FONTS),
+        font_family: FONT_NAME.to_owned(),
+        ..Options::default()
+    };
+    Tree::from_str(svg, &options).map_err(|error: usvg::Error| PlotError::Svg(error.to_string()))
+}
