@@ -62,6 +62,18 @@ fn a_seed_changes_the_random_cases_and_only_them() {
     }
 }
 
+/// As many cases as rows are just enough, with any seed.
+#[test]
+fn a_count_of_the_depth_meets_every_row() {
+    let design = common::preset("compact");
+    let depth = design.rom().depth();
+    for seed in 0..8 {
+        let samples = samples(&design, Strategy::Random, depth as u64, seed);
+        let rows: HashSet<u32> = samples.iter().map(|sample| sample.case.address).collect();
+        assert_eq!(rows.len(), depth, "seed {seed}");
+    }
+}
+
 #[test]
 fn a_mixture_has_its_shares() {
     let design = common::preset("compact");
