@@ -8,11 +8,11 @@
 //! Each rename is atomic, the sequence of them is not. Files get their names in the order in which
 //! they were kept, so the file that vouches for the others (the manifest) belongs last.
 
-use std::fs::{self, Permissions};
+use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, TempPath};
 use thiserror::Error;
 
 /// Temporary files are hidden, and say whose they are should a power cut leave one behind.
@@ -72,7 +72,8 @@ fn advice(error: &io::Error) -> &'static str {
 #[must_use = "a file that is not kept is thrown away"]
 pub struct OutputFile {
     target: PathBuf,
-    writer: BufWriter<NamedTempFile>,
+    writer: BufWriter<File>,
+    temporary: TempPath,
 }
 
 impl OutputFile {
@@ -87,8 +88,13 @@ impl OutputFile {
             builder.permissions(permissions);
         }
         match builder.tempfile_in(directory) {
-            Ok(file) => Ok(Self { target, writer: BufWriter::with_capacity(BUFFER_BYTES, file) }),
-            Err(source) => Err(OutputError::Write { path: target, source }),
+            Ok(file) => {
+                let (file, temporary) = file.into_parts();
+                let writer = BufWriter::with_capacity(BUFFER_BYTES, file);
+                Ok(Self { target, writer, temporary })
+            }
+            // Its text names the temporary file, by a name that is another one each time.
+            Err(error) => Err(OutputError::Write { path: target, source: error.kind().into() }),
         }
     }
 
@@ -106,13 +112,10 @@ impl OutputFile {
 
     /// Everything to the disc: a full disc shows here at the latest.
     fn finish(self) -> Result<Finished, OutputError> {
-        let Self { target, writer } = self;
-        let finished = writer
-            .into_inner()
-            .map_err(io::IntoInnerError::into_error)
-            .and_then(|file| file.as_file().sync_all().map(|()| file));
-        match finished {
-            Ok(file) => Ok(Finished { target, file }),
+        let Self { target, writer, temporary } = self;
+        let written = writer.into_inner().map_err(io::IntoInnerError::into_error);
+        match written.and_then(|file| file.sync_all()) {
+            Ok(()) => Ok(Finished { target, temporary }),
             Err(source) => Err(OutputError::Write { path: target, source }),
         }
     }
@@ -143,7 +146,7 @@ const fn usual_permissions() -> Option<Permissions> {
 #[derive(Debug)]
 struct Finished {
     target: PathBuf,
-    file: NamedTempFile,
+    temporary: TempPath,
 }
 
 /// Files of one directory that appear together.
@@ -247,8 +250,8 @@ impl OutputSet {
             return Err(OutputError::Unfinished(path.clone()));
         }
         let mut paths = Vec::with_capacity(self.finished.len());
-        for Finished { target, file } in std::mem::take(&mut self.finished) {
-            if let Err(error) = file.persist(&target) {
+        for Finished { target, temporary } in std::mem::take(&mut self.finished) {
+            if let Err(error) = temporary.persist(&target) {
                 return Err(OutputError::Write { path: target, source: error.error });
             }
             paths.push(target);

@@ -113,6 +113,7 @@ fn an_unwritable_directory_is_named() {
     let text = error.to_string();
     assert!(matches!(error, OutputError::Write { .. }), "{text}");
     assert!(text.starts_with("cannot write /proc/self/fdinfo/trace.csv: "), "{text}");
+    assert!(!text.contains(".blysk-"), "{text}");
     let error = OutputSet::create("/proc/self/fdinfo/out").unwrap_err();
     assert!(matches!(error, OutputError::Directory { .. }), "{error}");
 }
