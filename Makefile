@@ -1,0 +1,59 @@
+# Targets are listed by `make help`, from the comments after ##.
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := all
+.PHONY: all setup test bench exhaustive clean help
+
+CARGO ?= cargo
+RESULTS ?= results
+BLYSK = $(CARGO) run --release --locked --quiet --bin blysk --
+VENV = target/venv
+
+# Exit status 1 of `blysk report` says that a bound does not hold for some preset. Here that is a
+# finding, which the table shows; anything greater is an error.
+REPORT = status=0; $(BLYSK) report --all-presets $(1) || status=$$?; test $$status -le 1 || exit $$status
+
+all: ## build, measure every preset, and write reports, plots and test vectors to results/
+	@echo "Building blysk and measuring every preset..."
+	@$(call REPORT,--out $(RESULTS)); \
+	$(BLYSK) vectors --preset paper --count 4096 --seed 1 --out $(RESULTS)/paper/vectors; \
+	echo; \
+	echo "Results are in $(RESULTS)/, one directory for each preset:"; \
+	echo "  error_vs_n.csv, .json        every part of the error, for every exponent n"; \
+	echo "  error_vs_n.svg, .png         error on the epicentre against n, with the bound (the paper's Fig. 1)"; \
+	echo "  error_full_range.svg, .png   the parts of the error on all of [0, 1]"; \
+	echo "  curves.svg, .png             Phong, Schlick and the hardware against the angle (Fig. 3)"; \
+	echo "  paper/vectors/               stimulus, expected results and ROM for an RTL testbench"; \
+	if [ $$status -eq 1 ]; then \
+		echo "The bound does not hold for every preset: the table above says for which."; \
+	else \
+		echo "The bound holds for every exponent of every preset."; \
+	fi
+
+setup: ## install what the tests need and cargo does not bring
+	@scripts/setup
+
+test: setup ## everything that is checked: format, spelling, lints, documentation, tests
+	$(CARGO) fmt --all --check
+	$(VENV)/bin/typos
+	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
+	$(CARGO) test --workspace --locked --profile release-checked
+
+bench: ## measure speed
+	@compgen -G '*/benches/*.rs' > /dev/null || { echo "there are no benchmarks yet" >&2; exit 1; }
+	$(CARGO) bench --workspace --locked
+
+exhaustive: ## measure every preset at every representable x; takes long
+	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \
+	echo "Results are in $(RESULTS)/exhaustive/."
+
+clean: ## remove everything that was built or written
+	$(CARGO) clean
+	rm -rf $(RESULTS)
+
+help: ## list the targets
+	@sed -nE 's/^([a-z]+):.*## (.*)/\1\t\2/p' $(firstword $(MAKEFILE_LIST)) | while IFS=$$'\t' read -r target words; do \
+		printf '  make %-11s %s\n' "$$target" "$$words"; \
+	done
