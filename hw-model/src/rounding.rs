@@ -91,11 +91,11 @@ impl Lane for i64 {
     const BITS: u32 = 64;
     const ZERO: Self = 0;
     const ONE: Self = 1;
-    #[inline]
+    #[inline(always)]
     fn from_bits(bits: i64) -> Self {
         bits
     }
-    #[inline]
+    #[inline(always)]
     fn to_bits(self) -> i64 {
         self
     }
@@ -105,11 +105,11 @@ impl Lane for i128 {
     const BITS: u32 = 128;
     const ZERO: Self = 0;
     const ONE: Self = 1;
-    #[inline]
+    #[inline(always)]
     fn from_bits(bits: i64) -> Self {
         Self::from(bits)
     }
-    #[inline]
+    #[inline(always)]
     fn to_bits(self) -> i64 {
         debug_assert!(i64::try_from(self).is_ok(), "a register holds at most 63 bits");
         self as i64
@@ -120,7 +120,7 @@ impl Lane for i128 {
 ///
 /// `drop` is less than the lane's width, and `value` leaves room for half an output ulp below the
 /// lane's maximum; both follow from the width analysis of the line.
-#[inline]
+#[inline(always)]
 pub fn round_shift<L: Lane>(value: L, drop: u32, mode: Rounding) -> L {
     if drop == 0 {
         return value;

@@ -3,13 +3,16 @@
 //! The coefficients are hoisted out of the loop, each line runs over an array, and regions are
 //! selected instead of branched on, so that a compiler can put several samples in one instruction.
 
+use multiversion::multiversion;
+
 use crate::rom::{FieldName, Row};
-use crate::rounding::Lane;
+use crate::rounding::{Lane, Rounding};
 
 use super::clamp::clamp;
-use super::front_end::Region;
+use super::front_end::{FrontEnd, Region};
 use super::ranks::Datapath;
-use super::tail::Division;
+use super::stage::MultiplyAdd;
+use super::tail::{Divider, Division};
 
 /// Samples that go through the lines together.
 const LANES: usize = 64;
@@ -34,16 +37,81 @@ impl Datapath {
         let Some(row) = self.rom.row(address) else {
             return;
         };
-        let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
-        for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
-            if self.narrow {
-                self.evaluate_lanes::<i64>(row, xs, intensities, regions);
-            } else {
-                self.evaluate_lanes::<i128>(row, xs, intensities, regions);
-            }
+        if self.narrow {
+            narrow_block(self, row, xs, block);
+        } else {
+            Lines::of(self).evaluate::<i128>(row, xs, block);
+        }
+    }
+}
+
+/// The block in the narrow lane, compiled once for each vector width named here; the machine's own is
+/// chosen at run time. Integers give the same bits in all of them.
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
+    Lines::of(datapath).evaluate::<i64>(row, xs, block);
+}
+
+/// The lines of a data path, out of their ranks.
+#[derive(Clone, Copy)]
+struct Lines {
+    front_end: FrontEnd,
+    stages: Option<[MultiplyAdd; 3]>,
+    divider: Option<Divider>,
+    output_one: i64,
+}
+
+impl Lines {
+    fn of(datapath: &Datapath) -> Self {
+        Self {
+            front_end: datapath.front_end,
+            stages: datapath.stages,
+            divider: datapath.divider,
+            output_one: datapath.output_one,
         }
     }
 
+    /// The same lines, with a mode that the compiler knows: it leaves no choice in the loops.
+    #[inline(always)]
+    fn rounded_by(self, mode: Rounding) -> Self {
+        Self {
+            front_end: self.front_end.rounded_by(mode),
+            stages: self.stages.map(|stages| stages.map(|stage| stage.rounded_by(mode))),
+            divider: self.divider.map(|divider| divider.rounded_by(mode)),
+            ..self
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate<L: Lane>(self, row: &Row, xs: &[i64], block: &mut Block) {
+        match self.rounding() {
+            Some(Rounding::Floor) => self.rounded_by(Rounding::Floor).chunks::<L>(row, xs, block),
+            Some(Rounding::NearestUp) => {
+                self.rounded_by(Rounding::NearestUp).chunks::<L>(row, xs, block);
+            }
+            _ => self.chunks::<L>(row, xs, block),
+        }
+    }
+
+    /// The mode of every line, where they have one in common.
+    fn rounding(&self) -> Option<Rounding> {
+        let front_end = self.front_end.rounding();
+        let stages = self.stages.iter().flatten().map(MultiplyAdd::rounding);
+        let divider = self.divider.iter().flat_map(|d| [d.rounding, d.divisor.rounding()]);
+        let mut modes = front_end.into_iter().chain(stages).chain(divider);
+        let first = modes.next()?;
+        modes.all(|mode| mode == first).then_some(first)
+    }
+
+    #[inline(always)]
+    fn chunks<L: Lane>(&self, row: &Row, xs: &[i64], block: &mut Block) {
+        let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
+        for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
+            self.evaluate_lanes::<L>(row, xs, intensities, regions);
+        }
+    }
+
+    #[inline(always)]
     fn evaluate_lanes<L: Lane>(
         &self,
         row: &Row,
@@ -65,6 +133,7 @@ impl Datapath {
         }
     }
 
+    #[inline(always)]
     fn polynomial_lanes<L: Lane>(
         &self,
         row: &Row,
@@ -89,6 +158,7 @@ impl Datapath {
         }
     }
 
+    #[inline(always)]
     fn tail_lanes<L: Lane>(
         &self,
         row: &Row,
@@ -99,20 +169,29 @@ impl Datapath {
         let Some(divider) = &self.divider else { return };
         let a = L::from_bits(row.get(FieldName::TailA));
         let b = L::from_bits(row.get(FieldName::TailB));
-        let idle = Division { divisor: L::ONE, remainder: L::ZERO, digits: L::ZERO };
-        let mut divisions = [idle; LANES];
-        for ((&x, &region), division) in xs.iter().zip(regions).zip(&mut divisions) {
+        // One array for each register, so that lanes lie side by side.
+        let mut divisors = [L::ONE; LANES];
+        let mut remainders = [L::ZERO; LANES];
+        let mut digits = [L::ZERO; LANES];
+        for (lane, (&x, &region)) in xs.iter().zip(regions).enumerate() {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            *division = divider.begin(self.front_end.tail_x(x, region), a, b);
+            let begun = divider.begin(self.front_end.tail_x(x, region), a, b);
+            (divisors[lane], remainders[lane], digits[lane]) =
+                (begun.divisor, begun.remainder, begun.digits);
         }
         for _ in 0..divider.digit_count {
-            for division in &mut divisions {
-                *division = divider.digit(*division);
+            for ((&divisor, remainder), digits) in
+                divisors.iter().zip(&mut remainders).zip(&mut digits)
+            {
+                let next =
+                    divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
+                (*remainder, *digits) = (next.remainder, next.digits);
             }
         }
         let one = L::from_bits(self.output_one);
-        for ((&region, intensity), &division) in regions.iter().zip(intensities).zip(&divisions) {
-            let quotient = divider.finish(division, one).to_bits();
+        for (lane, (&region, intensity)) in regions.iter().zip(intensities).enumerate() {
+            let (divisor, remainder, digits) = (divisors[lane], remainders[lane], digits[lane]);
+            let quotient = divider.finish(Division { divisor, remainder, digits }, one).to_bits();
             *intensity = if region == Region::Tail { quotient } else { *intensity };
         }
     }

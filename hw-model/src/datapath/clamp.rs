@@ -7,7 +7,7 @@
 use crate::rounding::Lane;
 
 /// `t3` clamped to `0..=one`.
-#[inline]
+#[inline(always)]
 pub fn clamp<L: Lane>(t3: L, one: L) -> L {
     t3.max(L::ZERO).min(one)
 }

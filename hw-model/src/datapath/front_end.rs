@@ -72,14 +72,34 @@ pub struct FrontEnd {
 }
 
 impl FrontEnd {
+    /// How u is rounded; none where there is no u.
+    #[must_use]
+    pub const fn rounding(&self) -> Option<Rounding> {
+        match self.variable {
+            Some(Variable::U { rounding, .. }) => Some(rounding),
+            Some(Variable::X) | None => None,
+        }
+    }
+
+    /// The same front end, u rounded by `mode`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rounded_by(self, mode: Rounding) -> Self {
+        let variable = match self.variable {
+            Some(Variable::U { up, drop, .. }) => Some(Variable::U { up, drop, rounding: mode }),
+            other => other,
+        };
+        Self { variable, ..self }
+    }
+
     /// x clamped to [0, 1].
-    #[inline]
+    #[inline(always)]
     pub fn clamp_input<L: Lane>(&self, x: L) -> L {
         x.max(L::ZERO).min(L::from_bits(self.greatest))
     }
 
     /// The region of x (not clamped: its sign matters) in a row with this cut.
-    #[inline]
+    #[inline(always)]
     pub fn region<L: Lane>(&self, x: L, cut: L) -> Region {
         if x < L::ZERO {
             Region::Zero
@@ -94,7 +114,7 @@ impl FrontEnd {
 
     /// The polynomial's variable for a clamped x: x itself, or u = (1 − x)·2^shift. Where the
     /// polynomial does not answer, its value at x = `greatest`.
-    #[inline]
+    #[inline(always)]
     pub fn variable<L: Lane>(&self, x: L, region: Region, shift: u32) -> L {
         let greatest = L::from_bits(self.greatest);
         let x = if region == Region::Polynomial { x } else { greatest };
@@ -108,7 +128,7 @@ impl FrontEnd {
     }
 
     /// The divider's x: a clamped x where the tail answers, 0 elsewhere.
-    #[inline]
+    #[inline(always)]
     pub fn tail_x<L: Lane>(&self, x: L, region: Region) -> L {
         if region == Region::Tail { x } else { L::ZERO }
     }

@@ -63,6 +63,19 @@ impl MultiplyAdd {
         self.drop
     }
 
+    /// How the sum is rounded.
+    #[must_use]
+    pub const fn rounding(&self) -> Rounding {
+        self.rounding
+    }
+
+    /// The same line, rounded by `mode`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rounded_by(self, mode: Rounding) -> Self {
+        Self { rounding: mode, ..self }
+    }
+
     /// True when the product is taken away from the addend.
     #[must_use]
     pub const fn subtracts(&self) -> bool {
@@ -78,7 +91,7 @@ impl MultiplyAdd {
     }
 
     /// `addend ± multiplicand · variable`, rounded once to the result's fraction bits.
-    #[inline]
+    #[inline(always)]
     pub fn apply<L: Lane>(&self, multiplicand: L, variable: L, addend: L) -> L {
         let product = (multiplicand * variable) << self.product_up;
         let addend = addend << self.addend_up;

@@ -58,6 +58,13 @@ impl Divider {
         output + GUARD_BITS - 1
     }
 
+    /// The same divider, every line rounded by `mode`.
+    #[inline(always)]
+    #[must_use]
+    pub const fn rounded_by(self, mode: Rounding) -> Self {
+        Self { rounding: mode, divisor: self.divisor.rounded_by(mode), ..self }
+    }
+
     /// Clock cycles spent on quotient bits.
     #[must_use]
     pub const fn digit_stages(&self) -> u32 {
@@ -65,7 +72,7 @@ impl Divider {
     }
 
     /// The division x / (A − B·x), before its first quotient bit.
-    #[inline]
+    #[inline(always)]
     pub fn begin<L: Lane>(&self, x: L, a: L, b: L) -> Division<L> {
         let dividend = x << self.dividend_up;
         let low_mask = (L::ONE << self.digit_count) - L::ONE;
@@ -77,7 +84,7 @@ impl Divider {
     }
 
     /// One quotient bit.
-    #[inline]
+    #[inline(always)]
     pub fn digit<L: Lane>(&self, division: Division<L>) -> Division<L> {
         let Division { divisor, remainder, digits } = division;
         let low_mask = (L::ONE << self.digit_count) - L::ONE;
@@ -92,7 +99,7 @@ impl Divider {
     }
 
     /// The quotient bits of stage `index` (0 is the first); the last stage may find fewer.
-    #[inline]
+    #[inline(always)]
     pub fn digit_stage<L: Lane>(&self, index: u32, division: Division<L>) -> Division<L> {
         let done = (index * self.digits_per_stage).min(self.digit_count);
         let count = self.digits_per_stage.min(self.digit_count - done);
@@ -100,7 +107,7 @@ impl Divider {
     }
 
     /// The finished quotient in the output's unit, rounded once, at most `one`.
-    #[inline]
+    #[inline(always)]
     pub fn finish<L: Lane>(&self, division: Division<L>, one: L) -> L {
         let sticky = if division.remainder == L::ZERO { L::ZERO } else { L::ONE };
         let quotient = (division.digits << 1) + sticky;

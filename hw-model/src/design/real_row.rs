@@ -60,6 +60,7 @@ impl RealRow {
     /// The real function at x = 1 − s, with real coefficients, through the same parts as the
     /// hardware: the polynomial above the cut (clamped to [0, 1]), the ratio or zero below.
     #[must_use]
+    #[inline]
     pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
         match (&self.polynomial, &self.tail) {
             (Some(cubic), _) if above_cut => cubic.centred.value_at_s(s).clamp(0.0, 1.0),

@@ -46,6 +46,7 @@ impl Design {
 impl RomRow {
     /// The value at x = 1 − s, through the polynomial or through what answers below the cut.
     #[must_use]
+    #[inline]
     pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
         match (&self.polynomial, &self.tail) {
             (Some([h0, h1, h2, h3]), _) if above_cut => {

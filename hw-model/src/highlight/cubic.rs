@@ -47,6 +47,7 @@ pub struct Cubic {
 impl Centred {
     /// The value at x = 1 − s.
     #[must_use]
+    #[inline]
     pub fn value_at_s(&self, s: f64) -> f64 {
         1.0 - s * (self.k1 - s * (self.k2 - s * self.k3))
     }

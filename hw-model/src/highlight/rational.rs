@@ -26,6 +26,7 @@ impl Rational {
 
     /// The value at x = 1 − s, s in [0, 1].
     #[must_use]
+    #[inline]
     pub fn value_at_s(&self, s: f64) -> f64 {
         (1.0 - s) / self.denominator(s)
     }
@@ -43,6 +44,7 @@ impl Rational {
         x / self.denominator(1.0 - x)
     }
 
+    #[inline]
     fn denominator(&self, s: f64) -> f64 {
         self.at_one + self.b * s
     }

@@ -34,27 +34,18 @@ pub struct Region {
 
 impl Region {
     /// All of [0, 1].
-    pub const WHOLE: Self = Self {
-        s_low: 0.0,
-        s_high: 1.0,
-    };
+    pub const WHOLE: Self = Self { s_low: 0.0, s_high: 1.0 };
 
     /// The epicentre, x in [q, 1].
     #[must_use]
     pub const fn epicentre(fit: &Fit) -> Self {
-        Self {
-            s_low: 0.0,
-            s_high: fit.epicentre.s,
-        }
+        Self { s_low: 0.0, s_high: fit.epicentre.s }
     }
 
     /// The tail, x in [0, q].
     #[must_use]
     pub const fn tail(fit: &Fit) -> Self {
-        Self {
-            s_low: fit.epicentre.s,
-            s_high: 1.0,
-        }
+        Self { s_low: fit.epicentre.s, s_high: 1.0 }
     }
 
     /// The region's grid, increasing.
@@ -64,9 +55,7 @@ impl Region {
         let points = |end: f64| {
             let step = (end - s_low) / f64::from(CELLS);
             // The last point is the end itself, not a rounding of it.
-            (0..CELLS)
-                .map(move |i| s_low + step * f64::from(i))
-                .chain([end])
+            (0..CELLS).map(move |i| s_low + step * f64::from(i)).chain([end])
         };
         let mut grid: Vec<f64> = points(near).chain(points(s_high)).collect();
         grid.sort_by(f64::total_cmp);
@@ -140,10 +129,7 @@ fn greatest(grid: &[f64], error: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64
     let errors: Vec<f64> = grid.iter().map(|&s| error(s)).collect();
     let mut peaks = peaks(&errors);
     peaks.sort_by(|&i, &j| errors[j].abs().total_cmp(&errors[i].abs()));
-    let mut best = Peak {
-        error: 0.0,
-        s: grid[0],
-    };
+    let mut best = Peak { error: 0.0, s: grid[0] };
     for &i in peaks.iter().take(REFINED) {
         let (left, right) = (grid[i.saturating_sub(1)], grid[(i + 1).min(grid.len() - 1)]);
         let rising = |s: f64| slope(s) * errors[i] > 0.0;
@@ -151,10 +137,7 @@ fn greatest(grid: &[f64], error: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64
         for s in [Some(grid[i]), summit].into_iter().flatten() {
             let magnitude = error(s).abs();
             if magnitude > best.error {
-                best = Peak {
-                    error: magnitude,
-                    s,
-                };
+                best = Peak { error: magnitude, s };
             }
         }
     }

@@ -135,7 +135,9 @@ impl ErrorReport {
     /// The row with the greatest total error on the epicentre.
     #[must_use]
     pub fn worst(&self) -> Option<&ErrorRow> {
-        self.rows.iter().reduce(|worst, row| if row.total_abs > worst.total_abs { row } else { worst })
+        self.rows
+            .iter()
+            .reduce(|worst, row| if row.total_abs > worst.total_abs { row } else { worst })
     }
 
     /// The row with the greatest error on all of [0, 1].

@@ -11,6 +11,7 @@
 use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::highlight::{phong, phong_at_s};
+use multiversion::multiversion;
 
 /// Samples that go through the pipeline together: their arrays stay in the first-level cache.
 const BLOCK: usize = 1024;
@@ -28,6 +29,7 @@ impl Peak {
     const NONE: Self = Self { error: 0.0, x: 0 };
 
     /// Sees a block of errors. The place is only looked for when there is a new peak, which is rare.
+    #[inline(always)]
     fn see(&mut self, errors: &[f64], xs: &[i64]) {
         let greatest = greatest(errors);
         if greatest > self.error
@@ -96,13 +98,14 @@ pub fn sweep_row(design: &Design, address: u32, xs: impl Iterator<Item = i64>) -
     while xs.peek().is_some() {
         block.clear();
         block.extend(xs.by_ref().take(BLOCK));
-        sweep.see(&block, &mut errors);
+        see(&mut sweep, &block, &mut errors);
     }
     errors
 }
 
 /// The greatest of some errors, none of them negative; 0 for none. Eight at a time, because a compiler
 /// may not reorder a maximum of floating-point numbers by itself.
+#[inline(always)]
 fn greatest(errors: &[f64]) -> f64 {
     let more = |a: f64, b: f64| if a > b { a } else { b };
     let (eights, rest) = errors.as_chunks::<8>();
@@ -110,6 +113,13 @@ fn greatest(errors: &[f64]) -> f64 {
         std::array::from_fn(|lane| more(greatest[lane], errors[lane]))
     });
     lanes.into_iter().chain(rest.iter().copied()).fold(0.0, more)
+}
+
+/// Compiled for the vector widths named here, the machine's own chosen at run time. Rust never fuses or
+/// reorders floating-point operations, so the results are the same in all of them.
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+fn see(sweep: &mut Sweep<'_>, xs: &[i64], errors: &mut RowErrors) {
+    sweep.see(xs, errors);
 }
 
 struct Sweep<'a> {
@@ -139,6 +149,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
+    #[inline(always)]
     fn see(&mut self, xs: &[i64], errors: &mut RowErrors) {
         self.evaluate(xs);
         difference(&self.rom, &self.ideal, &mut self.errors);
@@ -154,6 +165,7 @@ impl<'a> Sweep<'a> {
     /// Evaluates the pipeline and both real functions at every x. x rises, so that each part of the
     /// block lies on one side of the cut. Bits and x have at most 53 bits in every format of use, and
     /// then become an f64 exactly; wider ones round in the 53rd bit.
+    #[inline(always)]
     fn evaluate(&mut self, xs: &[i64]) {
         let config = self.design.config();
         let row = &self.design.rows()[self.address as usize];
@@ -175,6 +187,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Against x^n. The estimates spare the reference wherever it could not make a new peak.
+    #[inline(always)]
     fn see_total(&mut self, xs: &[i64], errors: &mut RowErrors) {
         let ulp = self.design.config().input.ulp();
         let exponent = self.design.rows()[self.address as usize].exponent;
@@ -200,6 +213,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
+#[inline(always)]
 fn difference(left: &[f64], right: &[f64], errors: &mut Vec<f64>) {
     errors.clear();
     errors.extend(left.iter().zip(right).map(|(left, right)| (left - right).abs()));
@@ -218,6 +232,7 @@ impl Powers {
     /// Integer n: by squaring, all samples together. k multiplications in a row have a relative error
     /// of k·2^−53, and squaring doubles what is there, so x^n is off by at most n·2^−52 (x^n ≤ 1).
     /// Other n: the reference itself, exact.
+    #[inline(always)]
     fn estimate(&mut self, exponent: f64, xs: &[i64], ulp: f64) -> f64 {
         const GREATEST: f64 = 65_536.0;
         self.squares.clear();
