@@ -172,7 +172,7 @@ impl<'a> Bundle<'a> {
         let mut expected = Begun::new(set, EXPECTED)?;
         expected.header("expected answers", &words.expected, count, &self.command)?;
         let csv = Begun::new(set, TABLE)?;
-        let in_table = |source| OutputError::Write { path: set.directory().join(TABLE), source };
+        let in_table = |cause| OutputError::Write { path: set.directory().join(TABLE), cause };
         let mut table = TableWriter::new(self.design, csv.0).map_err(in_table)?;
 
         let mut kinds = BTreeMap::new();
@@ -240,7 +240,7 @@ impl Begun {
         command: &str,
     ) -> Result<(), OutputError> {
         let header = Header { title, layout, words, command };
-        write_header(&mut self.0, &header).map_err(|source| self.0.get_ref().error(source))
+        write_header(&mut self.0, &header).map_err(|cause| self.0.get_ref().error(cause))
     }
 
     fn word(
@@ -248,11 +248,11 @@ impl Begun {
         layout: &WordLayout,
         word: &impl std::fmt::LowerHex,
     ) -> Result<(), OutputError> {
-        write_word(&mut self.0, layout, word).map_err(|source| self.0.get_ref().error(source))
+        write_word(&mut self.0, layout, word).map_err(|cause| self.0.get_ref().error(cause))
     }
 
     fn keep(mut self, set: &mut OutputSet) -> Result<Checksum, OutputError> {
-        self.0.flush().map_err(|source| self.0.get_ref().error(source))?;
+        self.0.flush().map_err(|cause| self.0.get_ref().error(cause))?;
         let (file, checksum) = self.0.finish();
         set.keep(file)?;
         Ok(checksum)

@@ -5,6 +5,9 @@
 //! in this crate only.
 //!
 //! Everything written goes through [`whole_file`]: files appear whole, or not at all.
+//!
+//! The errors say all they know in their message; what the system said is their `cause` and not
+//! their `source()`, so that whoever prints a chain of errors does not say it twice.
 
 pub mod bundle;
 pub mod case;

@@ -44,12 +44,12 @@ pub struct Cycle {
 #[non_exhaustive]
 pub enum StimulusError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {cause}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A line is not text.
     #[error("{}:{line}: the line is not UTF-8; write the file as plain text", path.display())]
@@ -107,7 +107,7 @@ pub enum StimulusError {
 pub fn read_stimulus(path: &Path, rom: &Rom, input: QFormat) -> Result<Vec<Cycle>, StimulusError> {
     match File::open(path) {
         Ok(file) => parse_stimulus(file, path, rom, input),
-        Err(source) => Err(StimulusError::Io { path: path.to_owned(), source }),
+        Err(cause) => Err(StimulusError::Io { path: path.to_owned(), cause }),
     }
 }
 
@@ -124,7 +124,7 @@ pub fn parse_stimulus(
     let mut columns: Option<Columns> = None;
     let mut cycles = Vec::new();
     for (line, text) in (1..).zip(BufReader::new(from).lines()) {
-        let text = text.map_err(|source| unreadable(path, line, source))?;
+        let text = text.map_err(|cause| unreadable(path, line, cause))?;
         let text = text.trim_start_matches(BYTE_ORDER_MARK).trim();
         if text.is_empty() || text.starts_with('#') {
             continue;
@@ -155,11 +155,11 @@ pub fn parse_stimulus(
 /// What some editors put in front of the first line.
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
-fn unreadable(path: &Path, line: u64, source: io::Error) -> StimulusError {
+fn unreadable(path: &Path, line: u64, cause: io::Error) -> StimulusError {
     let path = path.to_owned();
-    match source.kind() {
+    match cause.kind() {
         io::ErrorKind::InvalidData => StimulusError::NotText { path, line },
-        _ => StimulusError::Io { path, source },
+        _ => StimulusError::Io { path, cause },
     }
 }
 

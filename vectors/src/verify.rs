@@ -17,20 +17,20 @@ use crate::table::{TableError, TableRow, read_table};
 #[non_exhaustive]
 pub enum VerifyError {
     /// A file is missing or cannot be read.
-    #[error("cannot read {}: {source}; write the bundle again", path.display())]
+    #[error("cannot read {}: {cause}; write the bundle again", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// The manifest is not one.
-    #[error("{} is not a manifest: {source}", path.display())]
+    #[error("{} is not a manifest: {cause}", path.display())]
     Manifest {
         /// The file.
         path: PathBuf,
         /// What is wrong, with line and column.
-        source: serde_json::Error,
+        cause: serde_json::Error,
     },
     /// The manifest is of another version.
     #[error("{} has format version {found}; this tool reads {FORMAT_VERSION}", path.display())]
@@ -137,7 +137,7 @@ fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
     let path = directory.join(MANIFEST);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
-        Err(source) => return Err(VerifyError::Io { path, source }),
+        Err(cause) => return Err(VerifyError::Io { path, cause }),
     };
     // The version first: another version may well have other fields.
     let manifest = serde_json::from_str::<serde_json::Value>(&text).and_then(|value| {
@@ -148,7 +148,7 @@ fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
         }
     });
     match manifest {
-        Err(source) => Err(VerifyError::Manifest { path, source }),
+        Err(cause) => Err(VerifyError::Manifest { path, cause }),
         Ok(Err(found)) => Err(VerifyError::Version { path, found }),
         Ok(Ok(Manifest { counts, .. })) if counts.vectors == 0 => Err(VerifyError::Empty(path)),
         Ok(Ok(manifest)) => Ok(manifest),
@@ -165,7 +165,7 @@ fn check_file(
         return Err(VerifyError::NotListed { path: directory.join(MANIFEST), name });
     };
     match File::open(&path).and_then(checksum) {
-        Err(source) => Err(VerifyError::Io { path, source }),
+        Err(cause) => Err(VerifyError::Io { path, cause }),
         Ok(found) if found != *expected => Err(VerifyError::Checksum {
             path,
             found: found.sha256,

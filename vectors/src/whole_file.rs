@@ -26,20 +26,20 @@ const BUFFER_BYTES: usize = 1 << 16;
 #[non_exhaustive]
 pub enum OutputError {
     /// The directory could not be made, or is something else.
-    #[error("cannot use the directory {}: {source}; {}", path.display(), advice(source))]
+    #[error("cannot use the directory {}: {cause}; {}", path.display(), advice(cause))]
     Directory {
         /// The directory.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// A file could not be written.
-    #[error("cannot write {}: {source}; {}", path.display(), advice(source))]
+    #[error("cannot write {}: {cause}; {}", path.display(), advice(cause))]
     Write {
         /// The file, under the name it would have had.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// The destination is a directory or a device, which a rename must not replace.
     #[error("{} is not a regular file; give the path of a file", .0.display())]
@@ -94,7 +94,7 @@ impl OutputFile {
                 Ok(Self { target, writer, temporary })
             }
             // Its text names the temporary file, by a name that is another one each time.
-            Err(error) => Err(OutputError::Write { path: target, source: error.kind().into() }),
+            Err(error) => Err(OutputError::Write { path: target, cause: error.kind().into() }),
         }
     }
 
@@ -106,8 +106,8 @@ impl OutputFile {
 
     /// An error of writing this file, with its path.
     #[must_use]
-    pub fn error(&self, source: io::Error) -> OutputError {
-        OutputError::Write { path: self.target.clone(), source }
+    pub fn error(&self, cause: io::Error) -> OutputError {
+        OutputError::Write { path: self.target.clone(), cause }
     }
 
     /// Everything to the disc: a full disc shows here at the latest.
@@ -116,7 +116,7 @@ impl OutputFile {
         let written = writer.into_inner().map_err(io::IntoInnerError::into_error);
         match written.and_then(|file| file.sync_all()) {
             Ok(()) => Ok(Finished { target, temporary }),
-            Err(source) => Err(OutputError::Write { path: target, source }),
+            Err(cause) => Err(OutputError::Write { path: target, cause }),
         }
     }
 }
@@ -186,14 +186,14 @@ impl OutputSet {
                 Ok(()) => set.created.push(path.to_owned()),
                 // Somebody else was faster: as good, but not ours to remove.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists && path.is_dir() => {}
-                Err(source) => {
-                    return Err(OutputError::Directory { path: directory, source });
+                Err(cause) => {
+                    return Err(OutputError::Directory { path: directory, cause });
                 }
             }
         }
         if !directory.is_dir() {
-            let source = ErrorKind::NotADirectory.into();
-            return Err(OutputError::Directory { path: directory, source });
+            let cause = ErrorKind::NotADirectory.into();
+            return Err(OutputError::Directory { path: directory, cause });
         }
         Ok(set)
     }
@@ -234,7 +234,7 @@ impl OutputSet {
     /// As [`file`](Self::file) and [`keep`](Self::keep).
     pub fn write(&mut self, name: &str, contents: impl AsRef<[u8]>) -> Result<(), OutputError> {
         let mut file = self.file(name)?;
-        file.write_all(contents.as_ref()).map_err(|source| file.error(source))?;
+        file.write_all(contents.as_ref()).map_err(|cause| file.error(cause))?;
         self.keep(file)
     }
 
@@ -252,7 +252,7 @@ impl OutputSet {
         let mut paths = Vec::with_capacity(self.finished.len());
         for Finished { target, temporary } in std::mem::take(&mut self.finished) {
             if let Err(error) = temporary.persist(&target) {
-                return Err(OutputError::Write { path: target, source: error.error });
+                return Err(OutputError::Write { path: target, cause: error.error });
             }
             paths.push(target);
         }
@@ -299,8 +299,8 @@ impl WholeFile {
 
     /// An error of writing this file, with its path.
     #[must_use]
-    pub fn error(&self, source: io::Error) -> OutputError {
-        self.file.error(source)
+    pub fn error(&self, cause: io::Error) -> OutputError {
+        self.file.error(cause)
     }
 
     /// Gives the file its name.

@@ -21,12 +21,12 @@ pub use write::{Header, write_header, write_word};
 #[non_exhaustive]
 pub enum MemoryError {
     /// The file cannot be read.
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {cause}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system said.
-        source: io::Error,
+        cause: io::Error,
     },
     /// Something in a line.
     #[error("{}:{line}: {problem}", path.display())]

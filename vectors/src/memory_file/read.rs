@@ -57,7 +57,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
 /// missing or beyond the end.
 pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, MemoryError> {
     let text = fs::read_to_string(path)
-        .map_err(|source| MemoryError::Io { path: path.to_owned(), source })?;
+        .map_err(|cause| MemoryError::Io { path: path.to_owned(), cause })?;
     let mut words: Vec<Option<UBig>> = vec![None; depth];
     for Entry { line, address, value } in parse(&text, path)? {
         let wrong = |problem| Err(at_line(path, line, problem));

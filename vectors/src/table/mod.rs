@@ -28,12 +28,12 @@ pub use write::TableWriter;
 #[non_exhaustive]
 pub enum TableError {
     /// The file cannot be read, or is not CSV (with the line).
-    #[error("cannot read {}: {source}", path.display())]
+    #[error("cannot read {}: {cause}", path.display())]
     Csv {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        source: csv::Error,
+        cause: csv::Error,
     },
     /// A column is missing.
     #[error("{}: there is no column `{column}`", path.display())]

@@ -25,7 +25,7 @@ pub struct TableRow {
 /// # Errors
 /// Names the line and the column.
 pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
-    let in_file = |source| TableError::Csv { path: path.to_owned(), source };
+    let in_file = |cause| TableError::Csv { path: path.to_owned(), cause };
     let mut reader = csv::Reader::from_path(path).map_err(in_file)?;
     let columns = Columns::find(reader.headers().map_err(in_file)?, path)?;
     let row = |record: csv::Result<csv::StringRecord>| {
