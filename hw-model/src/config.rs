@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
-use crate::format::QFormat;
+use crate::format::{MAX_WIDTH, QFormat};
 use crate::rounding::Rounding;
 
 /// The variable the polynomial is evaluated in.
@@ -257,15 +257,14 @@ impl Config {
                 "an intensity is not negative: use an unsigned format (UQ1.15)",
             );
         }
-        if self.output.fraction_bits() < 1 || self.output.integer_bits() < 0 {
-            return wrong("output", "use UQ0.n or UQ1.n with n of 1 or more");
+        // 63 fraction bits would leave no room for 1 in that unit.
+        let fraction = 1..=MAX_WIDTH - 1;
+        if !fraction.contains(&self.output.fraction_bits()) || self.output.integer_bits() < 0 {
+            return wrong("output", "use UQ0.n or UQ1.n with n of 1 to 62");
         }
         let value_bits = self.input.integer_bits() - i32::from(self.input.is_signed());
-        if value_bits < 0 || self.input.fraction_bits() < 1 {
-            return wrong(
-                "input",
-                "x lies in [0, 1]: use UQ0.n, UQ1.n or Q2.n with n of 1 or more",
-            );
+        if value_bits < 0 || !fraction.contains(&self.input.fraction_bits()) {
+            return wrong("input", "x lies in [0, 1]: use UQ0.n, UQ1.n or Q2.n with n of 1 to 62");
         }
         let stated_u = self.widths.u.is_some();
         if stated_u && (self.form == Form::Power || self.method == Method::Schlick) {

@@ -83,11 +83,13 @@ impl MultiplyAdd {
     }
 
     /// The bits a lane must have for operands of these widths, sign included: the product, the
-    /// addend, each moved to the common place, one bit for their sum, one for the rounding carry.
+    /// addend, each moved to the common place, one bit for their sum, one for the rounding carry. And
+    /// more bits than are dropped, of which narrow operands with many fraction bits may have fewer.
     #[must_use]
     pub fn lane_bits(&self, multiplicand: u32, variable: u32, addend: u32) -> u32 {
         let product = multiplicand + variable + self.product_up;
-        product.max(addend + self.addend_up) + self.result_up + 3
+        let sum = product.max(addend + self.addend_up) + self.result_up + 3;
+        sum.max(self.drop + 1)
     }
 
     /// `addend ± multiplicand · variable`, rounded once to the result's fraction bits.

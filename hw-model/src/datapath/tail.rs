@@ -9,7 +9,7 @@
 //! ```
 //!
 //! Widths. With k quotient fraction bits, d fraction bits of D and f of x, the quotient's integer is
-//! ⌊Z / D⌋ with Z = X·2^(k + d − f). It has W = k bits, or k + 1 where 1 itself can come out. The part
+//! ⌊Z / D⌋ with Z = X·2^(k + d − f). It has W = k bits, or more where 1 and above can come out. The part
 //! of Z above its low W bits is the first remainder: it is less than D exactly when the quotient fits
 //! W bits, and from then on every remainder is less than D, so D's width holds it. The low W bits of
 //! Z wait in `digits`; each step takes one from the top and puts a quotient bit in at the bottom, so

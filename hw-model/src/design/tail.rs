@@ -2,8 +2,8 @@
 
 use super::polynomial::surroundings;
 use super::{DesignError, Parts, RealRow};
-use crate::budget::RowTail;
 use crate::budget::tail::{self, StatedTail};
+use crate::budget::{BudgetError, RowTail};
 use crate::config::Config;
 use crate::datapath::ranks::TailFormats;
 use crate::datapath::stage::{Fractions, MultiplyAdd};
@@ -38,10 +38,15 @@ pub(super) fn derive(
     add_coefficients(&real_rows, FieldName::TailB, widths.b, |row| row.b, parts)?;
 
     let fraction = Divider::quotient_fraction(surroundings.output);
-    // Below 1 by more than its error the quotient needs no integer bit.
-    let reaches_one = rows.iter().any(|row| row.polynomial.is_none())
-        || config.q + 4.0 * config.output.ulp() >= 1.0;
-    let digit_count = fraction + u32::from(reaches_one);
+    // The greatest quotient: Q, or 1 without a polynomial, and the error that was allowed. Where that
+    // stays below 1 the quotient needs no integer bit; a large budget may need several.
+    let whole = rows.iter().any(|row| row.polynomial.is_none());
+    let error = parts.bounds.iter().fold(0.0_f64, |most, bound| most.max(bound.tail));
+    let greatest = if whole { 1.0 } else { config.q } + (error + 1.0) * config.output.ulp();
+    let digit_count = fraction + (greatest.log2().floor() + 1.0).max(0.0) as u32;
+    let digits = QFormat::unsigned(digit_count as i32, 0).map_err(|source| {
+        BudgetError::TooWide { register: "digits", exponent: config.exponents.last(), source }
+    })?;
     let fractions = Fractions {
         multiplicand: widths.b.fraction_bits(),
         variable: input,
@@ -63,12 +68,8 @@ pub(super) fn derive(
     let division =
         (x_width + divider.dividend_up).max(widths.divisor.width() + 2).max(digit_count + 3);
     parts.lane_bits.push(("the division", division));
-    parts.formats.tail = Some(TailFormats {
-        a: widths.a,
-        b: widths.b,
-        divisor: widths.divisor,
-        digits: QFormat::field(digit_count),
-    });
+    parts.formats.tail =
+        Some(TailFormats { a: widths.a, b: widths.b, divisor: widths.divisor, digits });
     Ok(Some(divider))
 }
 
