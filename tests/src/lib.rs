@@ -1,3 +1,6 @@
 //! Shared helpers of the integration tests.
 
+pub mod comparison;
+pub mod configurations;
+pub mod naive;
 pub mod reference;

@@ -1,0 +1,229 @@
+//! Random configurations over a wide space, and the inputs worth trying on them.
+
+use hw_model::config::{Config, Cut, Form, Tail};
+use hw_model::datapath::Datapath;
+use hw_model::design::Design;
+use hw_model::exponents::Exponents;
+use hw_model::fit::Method;
+use hw_model::format::QFormat;
+use hw_model::rounding::Rounding;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+/// A small random source: the same numbers for the same seed, on every platform.
+#[derive(Debug)]
+pub struct Random(ChaCha8Rng);
+
+impl Random {
+    /// The source of one seed and one stream.
+    #[must_use]
+    pub fn new(seed: u64, stream: u64) -> Self {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(stream);
+        Self(rng)
+    }
+
+    /// An integer in `low..=high`.
+    pub fn integer(&mut self, low: i64, high: i64) -> i64 {
+        let count = i128::from(high) - i128::from(low) + 1;
+        let offset = (u128::from(self.0.next_u64()) * count as u128) >> 64;
+        (i128::from(low) + offset as i128) as i64
+    }
+
+    /// A number in `low..high`.
+    pub fn real(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.0.next_u64() >> 11) as f64 * (-53_f64).exp2();
+        low + (high - low) * unit
+    }
+
+    /// True once in `times`.
+    pub fn once_in(&mut self, times: i64) -> bool {
+        self.integer(1, times) == 1
+    }
+
+    /// One of these.
+    pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[self.integer(0, choices.len() as i64 - 1) as usize]
+    }
+}
+
+/// The methods a configuration can have.
+pub const METHODS: [Method; 5] =
+    [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic, Method::Schlick];
+
+/// A configuration with every field at its default, to be changed field by field.
+///
+/// # Panics
+/// Never: the text is a configuration.
+#[must_use]
+pub fn plain() -> Config {
+    Config::from_json(
+        r#"{"name": "plain", "method": "hermite", "exponents": "1..=4", "input": "UQ1.12",
+            "output": "UQ1.8"}"#,
+    )
+    .expect("the plain configuration is one")
+}
+
+/// A random configuration. Most make hardware; some state what cannot be had.
+pub fn random(random: &mut Random) -> Config {
+    let mut config = plain();
+    config.method = random.one_of(&METHODS);
+    config.form = random.one_of(&[Form::Power, Form::Centred, Form::Centred]);
+    config.tail = random.one_of(&[Tail::Zero, Tail::Rational]);
+    config.cut = random.one_of(&[Cut::Epicentre, Cut::Minimum]);
+    config.rounding = random.one_of(&Rounding::ALL);
+    config.quotient_bits_per_stage = random.integer(1, 8) as u32;
+    if config.method == Method::Schlick {
+        config.tail = Tail::Rational;
+    }
+    if config.tail == Tail::Rational && !random.once_in(40) {
+        config.cut = Cut::Epicentre;
+    }
+    (config.q, config.g) = levels(random);
+    config.exponents = exponents(random, config.form);
+    config.input = input(random);
+    config.output = output(random);
+    config.error_budget_ulp = budget(random, config.rounding);
+    if random.once_in(6) {
+        state_widths(random, &mut config);
+    }
+    config
+}
+
+fn levels(random: &mut Random) -> (f64, f64) {
+    let q = match random.integer(0, 9) {
+        0..=3 => 0.5,
+        4..=7 => random.real(0.05, 0.95),
+        8 => random.one_of(&[0.999_999, 0.99, 0.999, 1.0 - 1e-12]),
+        _ => random.one_of(&[1e-6, 1e-3, 0.01]),
+    };
+    let g = match random.integer(0, 3) {
+        0 => q * random.real(0.01, 0.99),
+        1 => q * random.one_of(&[0.999_999, 1e-6]),
+        _ if q > 1.0 / 18.0 => 1.0 / 18.0,
+        _ => q / 9.0,
+    };
+    (q, g)
+}
+
+fn exponents(random: &mut Random, form: Form) -> Exponents {
+    let count = random.one_of(&[1, 1, 2, 3, 5, 9]);
+    let log_up_to = |random: &mut Random, greatest: f64| random.real(0.0, greatest.ln()).exp();
+    let mut list: Vec<f64> = (0..count)
+        .map(|_| match random.integer(0, 11) {
+            0..=3 => random.integer(1, 8) as f64,
+            4..=6 => random.integer(1, 256) as f64,
+            7 => random.real(1.0, 4.0),
+            8 => 1.0 + random.real(0.0, 1.0) * random.real(-30.0, 0.0).exp2(),
+            9 => log_up_to(random, 1e4),
+            _ if form == Form::Power && !random.once_in(8) => random.real(1.0, 64.0),
+            10 => log_up_to(random, 1e6),
+            _ => log_up_to(random, 1e15),
+        })
+        .collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup();
+    Exponents::new(list).expect("sorted, from 1 to 1e15")
+}
+
+fn input(random: &mut Random) -> QFormat {
+    let fraction = random.integer(2, 40) as u32;
+    match random.integer(0, 7) {
+        0..=2 => QFormat::unsigned(1, fraction),
+        3 => QFormat::unsigned(0, fraction),
+        4 | 5 => QFormat::signed(2, fraction),
+        6 => QFormat::signed(1, fraction),
+        _ => QFormat::unsigned(random.integer(2, 5) as i32, fraction),
+    }
+    .expect("at most 45 bits")
+}
+
+fn output(random: &mut Random) -> QFormat {
+    let width = match random.integer(0, 9) {
+        0 => random.integer(1, 4),
+        1 => random.integer(20, 32),
+        _ => random.integer(4, 20),
+    } as u32;
+    if random.once_in(3) || width == 1 {
+        QFormat::unsigned(0, width)
+    } else {
+        QFormat::unsigned(1, width - 1)
+    }
+    .expect("1 to 32 bits")
+}
+
+fn budget(random: &mut Random, rounding: Rounding) -> f64 {
+    let least = if rounding.is_nearest() { 0.55 } else { 1.05 };
+    match random.integer(0, 15) {
+        0 => random.real(0.3, 1.5),
+        1 => random.one_of(&[20.0, 100.0, 1e4, 1e6]),
+        2..=6 => random.real(least, 2.0 * least),
+        _ => random.real(2.0 * least, 6.0),
+    }
+}
+
+/// States some widths as the design derives them, with a few bits more, or rarely a bit less.
+fn state_widths(random: &mut Random, config: &mut Config) {
+    let Ok(design) = Design::new(config.clone()) else {
+        return;
+    };
+    let formats = design.datapath().formats();
+    let mut state = |place: &mut Option<QFormat>, format: QFormat| {
+        if random.once_in(2) {
+            return;
+        }
+        let less = i32::from(random.once_in(12));
+        let integer = format.integer_bits() + random.integer(0, 3) as i32 - less;
+        let fraction = format.fraction_bits() + random.integer(0, 8) as u32;
+        let stated = if format.is_signed() || random.once_in(3) {
+            QFormat::signed(integer + i32::from(!format.is_signed()), fraction)
+        } else {
+            QFormat::unsigned(integer, fraction)
+        };
+        *place = stated.ok();
+    };
+    let widths = &mut config.widths;
+    if let Some(polynomial) = &formats.polynomial {
+        let [c0, c1, c2, c3] = polynomial.coefficients;
+        if config.form == Form::Centred {
+            state(&mut widths.u, polynomial.v);
+        }
+        state(&mut widths.c0, c0);
+        state(&mut widths.c1, c1);
+        state(&mut widths.c2, c2);
+        state(&mut widths.c3, c3);
+        state(&mut widths.t1, polynomial.t1);
+        state(&mut widths.t2, polynomial.t2);
+    }
+    if let Some(tail) = &formats.tail {
+        state(&mut widths.tail_a, tail.a);
+        state(&mut widths.tail_b, tail.b);
+        state(&mut widths.divisor, tail.divisor);
+    }
+}
+
+/// Inputs of a row: corners, the cut and its neighbours, uniform, near one, above one, negative.
+/// Only bits the input format holds.
+pub fn inputs(random: &mut Random, datapath: &Datapath, cut: i64, count: usize) -> Vec<i64> {
+    let format = datapath.formats().input;
+    let one = 1_i64 << format.fraction_bits();
+    let (least, most) = (format.min_bits(), format.max_bits());
+    let mut list = vec![least, least + 1, most - 1, most];
+    for place in [0, one / 2, cut, one] {
+        list.extend((-2..=2).map(|offset| place + offset));
+    }
+    while list.len() < count {
+        let reach = random.integer(0, format.fraction_bits().into()) as u32;
+        let near = random.integer(0, 1 << reach);
+        list.push(match random.integer(0, 9) {
+            0..=2 => random.integer(0, one),
+            3..=5 => one - near,
+            6 => cut + near,
+            7 => cut - near,
+            8 => random.integer(least, most),
+            _ => one + near,
+        });
+    }
+    list.retain(|&x| format.holds(x.into()));
+    list
+}

@@ -1,0 +1,200 @@
+//! The golden model against the naive one, over a wide space of configurations.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use blysk_tests::comparison::{self, Comparison, Complaint, Kind};
+use blysk_tests::configurations::{self, METHODS, Random};
+use hw_model::config::{Config, Cut, Form, Tail};
+use hw_model::design::Design;
+use hw_model::fit::Method;
+use hw_model::rounding::Rounding;
+use rayon::prelude::*;
+
+/// The seed of everything random here.
+const SEED: u64 = 0x0b11_5c00_2024;
+
+/// Configurations tried (or as many as BLYSK_CONFIGURATIONS says), and inputs for each that makes
+/// hardware.
+const CONFIGURATIONS: u64 = 6000;
+const INPUTS: usize = 260;
+
+/// What came of some configurations.
+#[derive(Default)]
+struct Tally {
+    compared: u64,
+    designs: u64,
+    refusals: BTreeMap<String, u64>,
+    complaints: Vec<(String, Complaint)>,
+}
+
+impl Tally {
+    fn join(mut self, other: Self) -> Self {
+        self.compared += other.compared;
+        self.designs += other.designs;
+        for (text, count) in other.refusals {
+            *self.refusals.entry(text).or_default() += count;
+        }
+        self.complaints.extend(other.complaints);
+        self
+    }
+
+    fn refused(&self) -> u64 {
+        self.refusals.values().sum()
+    }
+
+    fn assert_none(&self) {
+        let by_kind =
+            self.complaints.iter().fold(BTreeMap::<_, u64>::new(), |mut kinds, (_, complaint)| {
+                *kinds.entry(complaint.kind).or_default() += 1;
+                kinds
+            });
+        let mut shown: BTreeMap<Kind, u32> = BTreeMap::new();
+        for (config, complaint) in &self.complaints {
+            let shown = shown.entry(complaint.kind).or_default();
+            *shown += 1;
+            if *shown <= 4 {
+                eprintln!("{complaint}\n  with {config}");
+            }
+        }
+        assert!(self.complaints.is_empty(), "complaints: {by_kind:?}");
+    }
+}
+
+/// Runs one configuration; a panic anywhere in the golden model is a complaint like any other.
+fn guarded(config: &Config, run: impl FnOnce(&mut Tally) -> Result<(), Complaint>) -> Tally {
+    let mut tally = Tally::default();
+    let outcome = catch_unwind(AssertUnwindSafe(|| run(&mut tally)));
+    let complaint = match outcome {
+        Ok(Ok(())) => return tally,
+        Ok(Err(complaint)) => complaint,
+        Err(payload) => {
+            let text = payload
+                .downcast_ref::<String>()
+                .map(String::as_str)
+                .or_else(|| payload.downcast_ref::<&str>().copied())
+                .unwrap_or("a panic");
+            Complaint { kind: Kind::Panic, text: text.to_owned() }
+        }
+    };
+    let text: String = config.to_json().split_whitespace().collect();
+    tally.complaints.push((text, complaint));
+    tally
+}
+
+/// The first words of a refusal, to count refusals by.
+fn kind_of_refusal(text: &str) -> String {
+    let words: Vec<&str> = text.split([' ', ',']).take(2).collect();
+    words.join(" ")
+}
+
+fn random_configuration(index: u64) -> Tally {
+    let mut random = Random::new(SEED, index);
+    let config = configurations::random(&mut random);
+    guarded(&config, |tally| {
+        let design = match Design::new(config.clone()) {
+            Ok(design) => design,
+            Err(refusal) => {
+                let text = kind_of_refusal(&refusal.to_string());
+                *tally.refusals.entry(text).or_default() += 1;
+                return Ok(());
+            }
+        };
+        tally.designs += 1;
+        comparison::rom(&design)?;
+        let mut comparison = Comparison::new(&design);
+        let depth = design.rom().depth() as i64;
+        let addresses = 1 + random.integer(0, 2).min(depth - 1);
+        for _ in 0..addresses {
+            let address = random.integer(0, depth - 1) as u32;
+            let cut = design.rows()[address as usize].cut;
+            let count = INPUTS / addresses as usize;
+            let xs = configurations::inputs(&mut random, design.datapath(), cut, count);
+            tally.compared += comparison.inputs(address, &xs)?;
+        }
+        // An address without a word.
+        let greatest = (1_i64 << design.rom().address_width()) - 1;
+        let beyond = random.integer(depth, greatest) as u32;
+        let xs = configurations::inputs(&mut random, design.datapath(), 0, 24);
+        tally.compared += comparison.inputs(beyond, &xs)?;
+        Ok(())
+    })
+}
+
+#[test]
+fn a_million_random_inputs_agree() {
+    let count = std::env::var("BLYSK_CONFIGURATIONS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(CONFIGURATIONS);
+    let tally =
+        (0..count).into_par_iter().map(random_configuration).reduce(Tally::default, Tally::join);
+    println!(
+        "seed {SEED:#x}: {} inputs of {} designs compared; {} of {count} configurations refused",
+        tally.compared,
+        tally.designs,
+        tally.refused(),
+    );
+    for (text, count) in &tally.refusals {
+        println!("  refused {count}: {text} ...");
+    }
+    tally.assert_none();
+    assert!(tally.compared >= 1_000_000, "{}", tally.compared);
+    assert!(tally.refused() * 2 < count, "refusals are to be a minority: {}", tally.refused());
+}
+
+/// Every x of Q2.6 (so below 0 and above 1 too) at each of sixteen exponents.
+fn every_input(config: &Config) -> Tally {
+    guarded(config, |tally| {
+        let design = Design::new(config.clone()).map_err(|refusal| Complaint {
+            kind: Kind::Rom,
+            text: format!("refused: {refusal}"),
+        })?;
+        tally.designs += 1;
+        comparison::rom(&design)?;
+        let format = config.input;
+        let xs: Vec<i64> = (format.min_bits()..=format.max_bits()).collect();
+        let mut comparison = Comparison::new(&design);
+        for address in 0..=16 {
+            tally.compared += comparison.inputs(address, &xs)?;
+        }
+        Ok(())
+    })
+}
+
+#[test]
+fn every_input_of_small_configurations_agrees() {
+    let mut configs = Vec::new();
+    for method in METHODS {
+        for form in [Form::Power, Form::Centred] {
+            for rounding in Rounding::ALL {
+                for (tail, cut) in [
+                    (Tail::Zero, Cut::Epicentre),
+                    (Tail::Zero, Cut::Minimum),
+                    (Tail::Rational, Cut::Epicentre),
+                ] {
+                    if method == Method::Schlick && tail == Tail::Zero {
+                        continue;
+                    }
+                    let mut config = configurations::plain();
+                    config.method = method;
+                    config.exponents =
+                        "1..=8,10,16,20.5,32,64,100,128,200".parse().expect("sixteen exponents");
+                    config.input = "Q2.6".parse().expect("a format");
+                    config.output = "UQ1.7".parse().expect("a format");
+                    config.form = form;
+                    config.rounding = rounding;
+                    config.tail = tail;
+                    config.cut = cut;
+                    config.error_budget_ulp = 1.5;
+                    configs.push(config);
+                }
+            }
+        }
+    }
+    let designs = configs.len() as u64;
+    let tally = configs.par_iter().map(every_input).reduce(Tally::default, Tally::join);
+    println!("{} inputs of {designs} designs compared", tally.compared);
+    tally.assert_none();
+    assert_eq!(tally.compared, designs * 17 * 256);
+}
