@@ -44,7 +44,7 @@ pub struct Counts {
     pub results: u64,
     /// Requests and results lost to a reset.
     pub lost_to_reset: u64,
-    /// Cycles in which a result waited because it was not taken.
+    /// Cycles in which a result waited because it was not taken. (In a reset it does not wait: it is lost.)
     pub stalls: u64,
     /// Cycles in which the pipeline could take a request and there was none, before the last request.
     pub bubbles: u64,
@@ -85,7 +85,7 @@ impl Counts {
             self.trailing_bubbles += 1;
         }
         self.results += u64::from(delivered);
-        self.stalls += u64::from(outputs.out_valid && !inputs.out_ready);
+        self.stalls += u64::from(outputs.out_valid && !inputs.out_ready && !inputs.reset);
         if inputs.reset {
             self.lost_to_reset += ranks.iter().filter(|rank| rank.valid).count() as u64;
         }
@@ -112,8 +112,12 @@ pub fn run<E>(
         waiting.extend(row.and_then(|row| row.request));
         let inputs = inputs(row, waiting.front().copied());
         let outputs = pipeline.combinational(&inputs);
-        let cycle =
-            Cycle { index: counts.cycles, inputs: &inputs, outputs: &outputs, ranks: pipeline.ranks() };
+        let cycle = Cycle {
+            index: counts.cycles,
+            inputs: &inputs,
+            outputs: &outputs,
+            ranks: pipeline.ranks(),
+        };
         observe(&cycle)?;
         counts.count(&cycle);
         pipeline.clock();

@@ -1,6 +1,6 @@
 //! Every register of every cycle, as CSV.
 
-use std::io::Write;
+use std::io::{self, Write};
 
 use hw_model::datapath::{Datapath, Register};
 
@@ -15,7 +15,15 @@ pub struct TraceWriter<W: Write> {
 
 /// The columns before the registers.
 const PORTS: [&str; 10] = [
-    "cycle", "rst", "in_valid", "in_ready", "address", "x", "out_valid", "out_ready", "intensity",
+    "cycle",
+    "rst",
+    "in_valid",
+    "in_ready",
+    "address",
+    "x",
+    "out_valid",
+    "out_ready",
+    "intensity",
     "status",
 ];
 
@@ -24,7 +32,7 @@ impl<W: Write> TraceWriter<W> {
     ///
     /// # Errors
     /// When `output` cannot be written.
-    pub fn new(output: W, datapath: &Datapath) -> csv::Result<Self> {
+    pub fn new(output: W, datapath: &Datapath) -> io::Result<Self> {
         let registers: Vec<_> =
             (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
         let mut csv = csv::Writer::from_writer(output);
@@ -34,7 +42,7 @@ impl<W: Write> TraceWriter<W> {
             header.push(format!("{scope}.valid"));
             header.extend(registers.iter().map(|register| format!("{scope}.{}", register.name)));
         }
-        csv.write_record(&header)?;
+        csv.write_record(&header).map_err(io_error)?;
         Ok(Self { csv, registers })
     }
 
@@ -42,7 +50,7 @@ impl<W: Write> TraceWriter<W> {
     ///
     /// # Errors
     /// When the output cannot be written.
-    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> csv::Result<()> {
+    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> io::Result<()> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
         let flag = |flag: bool| i64::from(flag);
         let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
@@ -67,21 +75,31 @@ impl<W: Write> TraceWriter<W> {
                 field(&mut self.csv, rank.loaded.then(|| (register.bits)(&rank.signals)))?;
             }
         }
-        self.csv.write_record(None::<&[u8]>)
+        self.csv.write_record(None::<&[u8]>).map_err(io_error)
     }
 
     /// Flushes.
     ///
     /// # Errors
     /// When the output cannot be written.
-    pub fn finish(mut self) -> std::io::Result<()> {
+    pub fn finish(mut self) -> io::Result<()> {
         self.csv.flush()
     }
 }
 
-fn field<W: Write>(csv: &mut csv::Writer<W>, bits: Option<i64>) -> csv::Result<()> {
-    match bits {
+fn field<W: Write>(csv: &mut csv::Writer<W>, bits: Option<i64>) -> io::Result<()> {
+    let written = match bits {
         Some(bits) => csv.write_field(bits.to_string()),
         None => csv.write_field("x"),
+    };
+    written.map_err(io_error)
+}
+
+/// The I/O error inside an error of writing CSV, with its kind.
+pub(crate) fn io_error(error: csv::Error) -> io::Error {
+    match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        // A line of another length than the header: a mistake of the program.
+        kind => io::Error::other(format!("{kind:?}")),
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args;
-use hw_model::config::Config;
+use hw_model::config::{Config, ConfigError};
 use hw_model::design::Design;
 use hw_model::presets;
 
@@ -43,9 +43,7 @@ impl Configuration {
                 let preset = find_preset(name)?;
                 Ok((preset.config()?, format!("preset {name}")))
             }
-            (None, Some(path)) => {
-                Ok((load_config(path)?, path.display().to_string()))
-            }
+            (None, Some(path)) => Ok((load_config(path)?, path.display().to_string())),
             // clap demands one of the two.
             (None, None) => bail!("say --preset NAME or --config FILE"),
         }
@@ -57,7 +55,21 @@ pub(super) fn load_config(path: &Path) -> anyhow::Result<Config> {
     let shown = path.display();
     let text = fs::read_to_string(path)
         .with_context(|| format!("cannot read the configuration {shown}"))?;
-    Config::from_json(&text).with_context(|| shown.to_string())
+    Config::from_json(&text).map_err(|error| {
+        let place = place(&error, &text).map_or_else(String::new, |text| format!(", at `{text}`"));
+        anyhow::Error::from(error).context(format!("{shown}{place}"))
+    })
+}
+
+/// The text before an error of the JSON, on its line: a value that is refused does not know the name of
+/// its field.
+fn place<'a>(error: &ConfigError, text: &'a str) -> Option<&'a str> {
+    const MOST: usize = 60;
+    let ConfigError::Json(error) = error else { return None };
+    let line = text.lines().nth(error.line().checked_sub(1)?)?;
+    let before = line.get(..error.column()).unwrap_or(line).trim();
+    let (start, _) = before.char_indices().rev().take(MOST).last()?;
+    Some(&before[start..])
 }
 
 /// The preset of this name.

@@ -52,13 +52,30 @@ enum Outcome {
 }
 
 /// Standard output, buffered.
-type Out = BufWriter<io::StdoutLock<'static>>;
+type Out = BufWriter<Stdout>;
+
+/// Standard output, whose errors say that it is what could not be written.
+struct Stdout(io::StdoutLock<'static>);
+
+impl Write for Stdout {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes).map_err(named)
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush().map_err(named)
+    }
+}
+
+/// Keeps the kind: an interrupted write is tried again, and a closed pipe is no error.
+fn named(error: io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("cannot write to standard output: {error}"))
+}
 
 /// Parses the command line, runs the command, and reports its errors.
 #[must_use]
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    let mut out = BufWriter::new(io::stdout().lock());
+    let mut out = BufWriter::new(Stdout(io::stdout().lock()));
     let result = run(cli.command, &mut out)
         .and_then(|outcome| out.flush().map(|()| outcome).map_err(Into::into));
     match result {
@@ -68,7 +85,7 @@ pub fn main() -> ExitCode {
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // A closed standard error leaves nobody to tell.
-            let _ = writeln!(io::stderr(), "error: {error:#}");
+            let _ = writeln!(io::stderr(), "error: {}", message(&error));
             ExitCode::from(2)
         }
     }
@@ -85,8 +102,19 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
     }
 }
 
+/// The error and its causes. Many messages end with their cause; it is not said twice.
+fn message(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
+        if said.is_empty() {
+            cause
+        } else if said.contains(&cause) {
+            said
+        } else {
+            format!("{said}: {cause}")
+        }
+    })
+}
+
 fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error
-        .downcast_ref::<io::Error>()
-        .is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -63,6 +63,9 @@ struct Subject {
     all_presets: bool,
 }
 
+/// The most samples of an exhaustive report, 2^40: hours of work.
+const MOST_SAMPLES: u64 = 1 << 40;
+
 fn bound(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(bound) if bound > 0.0 && bound <= 1.0 => Ok(bound),
@@ -74,13 +77,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if args.subject.all_presets {
         return every_preset(args, out);
     }
-    let config = match (&args.subject.preset, &args.subject.config) {
-        (Some(name), _) => find_preset(name)?.config()?,
-        (None, Some(path)) => load_config(path)?,
+    let (config, origin) = match (&args.subject.preset, &args.subject.config) {
+        (Some(name), _) => (find_preset(name)?.config()?, format!("preset {name}")),
+        (None, Some(path)) => (load_config(path)?, path.display().to_string()),
         (None, None) => bail!("say --preset NAME, --config FILE or --all-presets"),
     };
-    let name = config.name.clone();
-    let design = Design::new(config).with_context(|| name)?;
+    let design = Design::new(config).with_context(|| origin)?;
     let report = measure(args, &design, args.out.as_deref())?;
     match args.format {
         Format::Table => summary(&design, &report, out)?,
@@ -104,10 +106,17 @@ fn outcome(holds: bool) -> Outcome {
 /// Measures, and writes the files if there is a place for them.
 fn measure(args: &Args, design: &Design, directory: Option<&Path>) -> anyhow::Result<ErrorReport> {
     let curves = curves_exponent(args.curves, design)?;
+    let samples = exhaustive_samples(design);
+    if args.exhaustive && samples > MOST_SAMPLES {
+        bail!(
+            "--exhaustive: {samples} samples are more than {MOST_SAMPLES}; leave it out, or use a \
+             narrower input format or fewer exponents"
+        );
+    }
     // Made before the work, so that an unwritable place is found at once.
     let set = directory.map(OutputSet::create).transpose()?;
     let options = Options { bound: args.bound, exhaustive: args.exhaustive };
-    let bar = Bar::new(args.exhaustive.then(|| exhaustive_samples(design)));
+    let bar = Bar::new(args.exhaustive.then_some(samples));
     let report = error_report(design, options, &bar)?;
     bar.0.finish_and_clear();
     if let Some(mut set) = set {
@@ -170,26 +179,64 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     let failing = report.rows.iter().filter(|row| !row.holds).count();
     write!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
     match report.rows.iter().find(|row| !row.holds) {
-        Some(first) => writeln!(out, " ({failing} exponents exceed it, the first is n = {})", first.n)?,
+        Some(first) => {
+            writeln!(out, " ({failing} exponents exceed it, the first is n = {})", first.n)?
+        }
         None => writeln!(out, " for every exponent")?,
     }
-    writeln!(out, "worst total error        {} at n = {}, x = {}", percent(worst.total_abs), worst.n, digits(worst.total_x, 12))?;
+    writeln!(
+        out,
+        "worst total error        {} at n = {}, x = {}",
+        percent(worst.total_abs),
+        worst.n,
+        digits(worst.total_x, 12)
+    )?;
     writeln!(out, "  of it, at most:")?;
-    writeln!(out, "  method                 {} at x = {}", percent(worst.approximation_abs), digits(worst.approximation_x, 12))?;
+    writeln!(
+        out,
+        "  method                 {} at x = {}",
+        percent(worst.approximation_abs),
+        digits(worst.approximation_x, 12)
+    )?;
     writeln!(out, "  ROM coefficients       {}", percent(worst.coefficient_abs))?;
     writeln!(out, "  data path              {}", percent(worst.datapath_abs))?;
-    writeln!(out, "beside it, input         {} (half an ulp of x where x^n is steepest)", percent(worst.input_abs))?;
+    writeln!(
+        out,
+        "beside it, input         {} (half an ulp of x where x^n is steepest)",
+        percent(worst.input_abs)
+    )?;
     if let Some(method) = greatest(report, |row| row.approximation_abs) {
-        writeln!(out, "method alone, absolute   {} at n = {}, x = {}", percent(method.approximation_abs), method.n, digits(method.approximation_x, 12))?;
+        writeln!(
+            out,
+            "method alone, absolute   {} at n = {}, x = {}",
+            percent(method.approximation_abs),
+            method.n,
+            digits(method.approximation_x, 12)
+        )?;
     }
     if let Some(method) = greatest(report, |row| row.approximation_rel) {
-        writeln!(out, "method alone, relative   {} at n = {}", percent(method.approximation_rel), method.n)?;
+        writeln!(
+            out,
+            "method alone, relative   {} at n = {}",
+            percent(method.approximation_rel),
+            method.n
+        )?;
     }
     if let Some(full) = report.worst_full_range() {
-        writeln!(out, "worst on all of [0, 1]   {} at n = {}, x = {}", percent(full.full_range_abs), full.n, digits(full.full_range_x, 12))?;
+        writeln!(
+            out,
+            "worst on all of [0, 1]   {} at n = {}, x = {}",
+            percent(full.full_range_abs),
+            full.n,
+            digits(full.full_range_x, 12)
+        )?;
     }
     let within = if report.implementation_ulp <= report.budget_ulp { "within" } else { "BEYOND" };
-    writeln!(out, "ROM and data path        {:.4} ulp of the output, {within} the budget of {} ulp", report.implementation_ulp, report.budget_ulp)?;
+    writeln!(
+        out,
+        "ROM and data path        {:.4} ulp of the output, {within} the budget of {} ulp",
+        report.implementation_ulp, report.budget_ulp
+    )?;
     Ok(())
 }
 
@@ -218,10 +265,13 @@ fn every_preset(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 }
 
 fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
-    let columns = ["preset", "worst error", "at n", "at x", "method", "ROM+data path", "[0, 1]", "verdict"];
+    let columns =
+        ["preset", "worst error", "at n", "at x", "method", "ROM+data path", "[0, 1]", "verdict"];
     let mut rows = Rows::new(&columns);
     for report in reports {
-        let (Some(worst), Some(full)) = (report.worst(), report.worst_full_range()) else { continue };
+        let (Some(worst), Some(full)) = (report.worst(), report.worst_full_range()) else {
+            continue;
+        };
         let short = |fraction: f64| Cell::from(format!("{:.6} %", fraction * 100.0));
         let verdict = if report.holds() { "holds".to_owned() } else { first_failure(report) };
         rows.push(vec![
@@ -236,12 +286,20 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
         ]);
     }
     let Some(bound) = reports.first().map(|report| report.bound) else { return Ok(()) };
-    writeln!(out, "Total error on the epicentre (x^n >= Q) against the bound of {}:\n", percent(bound))?;
+    writeln!(
+        out,
+        "Total error on the epicentre (x^n >= Q) against the bound of {}:\n",
+        percent(bound)
+    )?;
     rows.print(out, Format::Table, 6)
 }
 
 fn first_failure(report: &ErrorReport) -> String {
-    report.rows.iter().find(|row| !row.holds).map_or_else(String::new, |row| format!("fails from n = {}", row.n))
+    report
+        .rows
+        .iter()
+        .find(|row| !row.holds)
+        .map_or_else(String::new, |row| format!("fails from n = {}", row.n))
 }
 
 /// Every exponent of every report; the preset's name in front where there are several.

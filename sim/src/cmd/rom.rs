@@ -39,6 +39,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let addresses = addresses(&design, args.exponents.as_ref())?;
     let rows = all_fields(&design, &addresses);
+    // Files first: nothing is printed where they cannot be written, and `| head` does not stop them.
+    if let Some(directory) = &args.out {
+        let mut set = OutputSet::create(directory)?;
+        let (mut csv, mut json) = (Vec::new(), Vec::new());
+        rows.csv(&mut csv)?;
+        rows.json(&mut json)?;
+        set.write("rom.csv", &csv)?;
+        set.write("rom.json", &json)?;
+        set.commit()?;
+    }
     if args.format == Format::Table {
         layout(&design).print(out, args.format, 6)?;
         writeln!(out)?;
@@ -48,15 +58,6 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         writeln!(out, "\n{depth} words of {width} bits, {} bits in all", rom.bits())?;
     } else {
         rows.print(out, args.format, 17)?;
-    }
-    if let Some(directory) = &args.out {
-        let mut set = OutputSet::create(directory)?;
-        let (mut csv, mut json) = (Vec::new(), Vec::new());
-        rows.csv(&mut csv)?;
-        rows.json(&mut json)?;
-        set.write("rom.csv", &csv)?;
-        set.write("rom.json", &json)?;
-        set.commit()?;
     }
     Ok(Outcome::Good)
 }
@@ -81,7 +82,11 @@ fn layout(design: &Design) -> Rows {
             Place::Stored { lsb } => format!("{}:{lsb}", lsb + field.format.width() - 1),
             Place::Constant { bits } => format!("constant {}", decimal(bits, field.format)),
         };
-        rows.push(vec![Cell::from(field.name.name()), field.format.to_string().into(), place.into()]);
+        rows.push(vec![
+            Cell::from(field.name.name()),
+            field.format.to_string().into(),
+            place.into(),
+        ]);
     }
     rows
 }

@@ -1,7 +1,7 @@
 //! `blysk simulate`: a stimulus through the clocked pipeline.
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::Args as ClapArgs;
@@ -51,13 +51,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let stimulus = read_stimulus(&args.stimulus, design.rom(), design.config().input)?;
     let (trace, waves) = match &args.out {
         None => (args.trace.clone(), args.waves.clone()),
-        Some(directory) => {
-            std::fs::create_dir_all(directory)
-                .map_err(|error| anyhow::anyhow!("cannot make {}: {error}", directory.display()))?;
-            (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd")))
-        }
+        Some(directory) => (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd"))),
     };
-    if trace.is_some() && trace == waves {
+    if trace.is_some() && trace.as_deref().map(place) == waves.as_deref().map(place) {
         bail!("--trace and --waves name the same file; give each its own");
     }
     // Nothing gets its name before the run is over.
@@ -78,6 +74,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     Ok(Outcome::Good)
 }
 
+/// Where a path leads, however it is written: the file need not be there yet.
+fn place(path: &Path) -> PathBuf {
+    let parent = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let parent = parent.canonicalize().or_else(|_| std::path::absolute(parent));
+    let name = path.file_name().unwrap_or_default();
+    parent.map_or_else(|_| path.to_owned(), |parent| parent.join(name))
+}
+
 fn cycle(line: &StimulusLine) -> StimulusCycle {
     let request = line.valid.then_some((line.case.address, line.case.x));
     StimulusCycle { request, ready: line.ready, reset: line.reset }
@@ -85,8 +92,26 @@ fn cycle(line: &StimulusLine) -> StimulusCycle {
 
 /// What records a run.
 struct Recorders<'a> {
-    trace: Option<TraceWriter<&'a mut WholeFile>>,
-    waves: Option<WaveWriter<&'a mut WholeFile>>,
+    trace: Option<TraceWriter<Target<'a>>>,
+    waves: Option<WaveWriter<Target<'a>>>,
+}
+
+/// A file whose errors say which file it is.
+struct Target<'a>(&'a mut WholeFile);
+
+impl Target<'_> {
+    fn named(&self, error: io::Error) -> io::Error {
+        io::Error::new(error.kind(), self.0.error(error))
+    }
+}
+
+impl Write for Target<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes).map_err(|error| self.named(error))
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush().map_err(|error| self.named(error))
+    }
 }
 
 impl<'a> Recorders<'a> {
@@ -96,8 +121,8 @@ impl<'a> Recorders<'a> {
         name: &str,
         datapath: &Datapath,
     ) -> anyhow::Result<Self> {
-        let trace = trace.map(|file| TraceWriter::new(file, datapath)).transpose()?;
-        let waves = waves.map(|file| WaveWriter::new(file, name, datapath)).transpose()?;
+        let trace = trace.map(|file| TraceWriter::new(Target(file), datapath)).transpose()?;
+        let waves = waves.map(|file| WaveWriter::new(Target(file), name, datapath)).transpose()?;
         Ok(Self { trace, waves })
     }
 

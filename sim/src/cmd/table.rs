@@ -7,6 +7,8 @@ use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
+use crate::trace::io_error;
+
 /// The widest line of a table for people; longer cells are folded.
 const TERMINAL_WIDTH: u16 = 100;
 
@@ -135,9 +137,10 @@ impl Rows {
 
     pub(super) fn csv(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let mut csv = csv::Writer::from_writer(out);
-        csv.write_record(&self.columns)?;
+        // As the I/O errors they are: a closed pipe must not hide in another type.
+        csv.write_record(&self.columns).map_err(io_error)?;
         for row in &self.rows {
-            csv.write_record(row.iter().map(Cell::text))?;
+            csv.write_record(row.iter().map(Cell::text)).map_err(io_error)?;
         }
         Ok(csv.flush()?)
     }
