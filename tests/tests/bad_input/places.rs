@@ -1,0 +1,110 @@
+//! Output that has no place to go.
+
+use std::path::Path;
+
+use blysk_tests::bench;
+
+/// A directory below a regular file can be made by nobody, root included.
+#[test]
+fn places_that_cannot_be_written() {
+    let bench = bench!();
+    bench.write("in.csv", "n,x\n1,0.5\n");
+    bench.write("file", "keep me");
+    for command in [
+        "report --config small.json --bound 1",
+        "report --all-presets",
+        "rom --config small.json",
+        "vectors --config small.json",
+        "simulate --config small.json --stimulus in.csv",
+    ] {
+        for place in ["file", "file/dir", "file/dir/deep"] {
+            bench.refused(&format!("{command} --out {place}"), &[place, "a file is in the way"]);
+        }
+        if Path::new("/proc/self").exists() {
+            let said = ["/proc/blysk", "cannot"];
+            bench.refused(&format!("{command} --out /proc/blysk"), &said);
+        }
+        bench.refused_list(
+            &[&command.split(' ').collect::<Vec<_>>()[..], &["--out"]].concat(),
+            &["--out"],
+        );
+    }
+    assert_eq!(bench.text("file"), "keep me");
+}
+
+#[test]
+fn targets_that_are_no_files() {
+    let bench = bench!();
+    bench.write("in.csv", "n,x\n1,0.5\n");
+    bench.write("file", "keep me");
+    std::fs::create_dir(bench.path("directory")).unwrap();
+    let simulate = "simulate --config small.json --stimulus in.csv";
+    for option in ["--trace", "--waves"] {
+        for (target, said) in [
+            ("/dev/full", "not a regular file"),
+            ("/dev/null", "not a regular file"),
+            ("directory", "not a regular file"),
+            ("directory/", "not a regular file"),
+            ("..", "file"),
+            ("/", "file"),
+            ("file/trace", "a file is in the way"),
+        ] {
+            if target.starts_with("/dev") && !Path::new(target).exists() {
+                continue;
+            }
+            let named = target.strip_suffix("/trace").unwrap_or(target);
+            bench.refused(&format!("{simulate} {option} {target}"), &[named, said]);
+        }
+        // The other file, which could be written, is not.
+        let other = if option == "--trace" { "--waves" } else { "--trace" };
+        bench.refused(&format!("{simulate} {option} file/x {other} good"), &["directory file"]);
+    }
+    for same in
+        ["--trace t --waves t", "--trace t --waves ./t", "--trace ./t --waves directory/../t"]
+    {
+        bench.refused(&format!("{simulate} {same}"), &["--trace", "--waves", "same file"]);
+    }
+    bench.refused(&format!("{simulate} --out new --trace t"), &["--out", "--trace"]);
+    // A directory has the name of a file: nothing of the set is written beside it.
+    for (command, name) in [
+        ("rom --config small.json", "rom.csv"),
+        ("vectors --config small.json", "manifest.json"),
+        ("report --config small.json --bound 1", "curves.svg"),
+        (simulate, "waves.vcd"),
+    ] {
+        std::fs::create_dir_all(bench.path("taken").join(name)).unwrap();
+        bench.refused(&format!("{command} --out taken"), &[name, "not a regular file"]);
+        std::fs::remove_dir_all(bench.path("taken")).unwrap();
+    }
+}
+
+/// A device without room: no file may be longer than a block, as if the disc were full.
+#[cfg(unix)]
+#[test]
+fn a_full_device() {
+    let bench = bench!();
+    let lines = "1,0.5\n".repeat(200);
+    bench.write("in.csv", format!("n,x\n{lines}"));
+    let before = bench.tree("");
+    for (command, name) in [
+        ("simulate --config small.json --stimulus in.csv --out new", "new/"),
+        ("simulate --config small.json --stimulus in.csv --trace t.csv", "t.csv"),
+        ("simulate --config small.json --stimulus in.csv --waves w.vcd", "w.vcd"),
+        ("vectors --config small.json --count 500 --out new", "new/"),
+        ("report --config small.json --bound 1 --out new", "new/"),
+        ("rom --config small.json --out new", "new/"),
+    ] {
+        let binary = env!("CARGO_BIN_EXE_blysk-under-test");
+        // Ignoring the signal turns the limit into an error of the write.
+        let script = format!("trap '' XFSZ; ulimit -f 1; exec {binary} {command}");
+        let mut shell = std::process::Command::new("sh");
+        let output = shell.args(["-c", &script]).current_dir(bench.path("")).output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{command}: {stderr}");
+        assert!(output.stdout.is_empty(), "{command}");
+        assert!(stderr.contains("cannot write") && stderr.contains(name), "{command}: {stderr}");
+        assert!(!stderr.contains("panicked"), "{stderr}");
+        let after = bench.tree("");
+        assert!(before == after, "{command} left {:?}", after.keys());
+    }
+}

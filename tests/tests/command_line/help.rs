@@ -1,0 +1,58 @@
+//! Help: complete, and its examples can be typed as they stand.
+
+use blysk_tests::bench;
+use blysk_tests::cli::Bench;
+
+const COMMANDS: [&str; 6] = ["report", "vectors", "simulate", "coefficients", "rom", "presets"];
+
+/// The command lines after "Example:" or "Examples:".
+fn examples(help: &str) -> Vec<String> {
+    let (_, examples) = help.split_once("Example").expect("there is an example");
+    let lines = examples.lines().filter_map(|line| line.find("blysk ").map(|at| &line[at..]));
+    lines.map(str::to_owned).collect()
+}
+
+/// The files that the examples speak of.
+fn with_files(bench: &Bench) {
+    bench.write("in.csv", "n,x\n64,0.99\n300,1\n2,-0.0\n");
+    let shown = bench.good("presets show compact");
+    // The example says --exhaustive, and 2^23 x for each of 256 exponents take a while.
+    let mine = shown.replace("UQ1.23", "UQ1.11").replace("1..=256", "1..=4");
+    assert_ne!(shown, mine);
+    bench.write("mine.json", mine);
+}
+
+#[test]
+fn every_command_is_listed_and_has_an_example() {
+    let bench = bench!();
+    let general = bench.good("--help");
+    assert!(general.contains("Start with: blysk presets"), "{general}");
+    for command in COMMANDS {
+        assert!(general.contains(&format!("\n  {command} ")), "{command} is not listed: {general}");
+        let help = bench.good(&format!("{command} --help"));
+        assert!(!examples(&help).is_empty(), "{help}");
+        assert!(help.contains("--format") || command == "vectors", "{help}");
+    }
+    assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));
+    bench.refused("", &["Usage: blysk"]);
+    bench.refused("polish", &["polish", "Usage: blysk"]);
+}
+
+/// Every example runs. A report may find that its bound does not hold, which is status 1.
+#[test]
+fn every_example_runs() {
+    let mut ran = 0;
+    for command in COMMANDS {
+        let bench = bench!();
+        with_files(&bench);
+        let help = bench.good(&format!("{command} --help"));
+        for example in examples(&help) {
+            let (line, _redirected) = example.split_once(" > ").unwrap_or((&example, ""));
+            let run = bench.run(line.strip_prefix("blysk ").unwrap());
+            assert!(run.status == 0 || (command == "report" && run.status == 1), "{run:#?}");
+            assert!(!run.stdout.is_empty() && run.stderr.is_empty(), "{run:#?}");
+            ran += 1;
+        }
+    }
+    assert!(ran >= 10, "{ran} examples ran");
+}

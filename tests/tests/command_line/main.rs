@@ -1,0 +1,13 @@
+//! The `blysk` command from outside, one file for each subject: what it prints, writes and returns.
+//!
+//! Nothing here looks inside the command. What is expected comes from the golden model, from the
+//! table of 32-digit values, or from arithmetic done here.
+
+mod coefficients;
+mod help;
+mod output;
+mod presets;
+mod report;
+mod report_against_brute_force;
+mod rom;
+mod vectors;

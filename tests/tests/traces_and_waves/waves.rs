@@ -1,0 +1,166 @@
+//! The waves, read back, against the trace: the same value of every signal at every rising edge.
+
+use std::collections::HashMap;
+
+use hw_model::datapath::Status;
+use hw_model::design::Design;
+use vcd::{Command, Header, IdCode, Parser, ScopeItem, TimescaleUnit, Value, VarType};
+
+use super::trace::Trace;
+
+/// Nanoseconds.
+const PERIOD: u64 = 10;
+
+/// A signal of the waves: its scope within the top ("" for a port) and name, the trace's column, width.
+struct Signal {
+    scope: String,
+    name: String,
+    column: String,
+    width: u32,
+}
+
+/// What an RTL simulator would show, with the names of the RTL.
+fn signals(design: &Design) -> Vec<Signal> {
+    let datapath = design.datapath();
+    let formats = datapath.formats();
+    let ports = [
+        ("rst_i", "rst", 1),
+        ("in_valid_i", "in_valid", 1),
+        ("in_ready_o", "in_ready", 1),
+        ("address_i", "address", datapath.rom().address_width()),
+        ("x_i", "x", formats.input.width()),
+        ("out_valid_o", "out_valid", 1),
+        ("out_ready_i", "out_ready", 1),
+        ("intensity_o", "intensity", formats.output.width()),
+        ("status_o", "status", Status::WIDTH),
+    ];
+    let mut signals: Vec<Signal> = ports
+        .map(|(name, column, width)| Signal {
+            scope: String::new(),
+            name: name.to_owned(),
+            column: column.to_owned(),
+            width,
+        })
+        .into();
+    for rank in 0..datapath.rank_count() {
+        let scope = datapath.rank_name(rank);
+        let mut add = |register: &str, width| {
+            signals.push(Signal {
+                scope: scope.clone(),
+                name: format!("{register}_q"),
+                column: format!("{scope}.{register}"),
+                width,
+            });
+        };
+        add("valid", 1);
+        for register in datapath.registers(rank) {
+            add(register.name, register.format.width());
+        }
+    }
+    signals
+}
+
+pub fn check(bytes: &[u8], trace: &Trace, design: &Design, place: &str) {
+    let mut parser = Parser::new(bytes);
+    let header = parser.parse_header().unwrap();
+    assert_eq!(header.timescale, Some((1, TimescaleUnit::NS)));
+    let top = &design.config().name;
+    let signals = signals(design);
+    let ids = ids(&header, top, &signals);
+    let clock = header.find_var(&[top.as_str(), "clk_i"]).expect("the clock").code;
+
+    let mut values: HashMap<IdCode, Vec<Value>> = HashMap::new();
+    // What stood before the changes of this instant: what a register takes in at an edge.
+    let mut before = values.clone();
+    let (mut now, mut edges) = (None, 0);
+    for command in parser {
+        match command.unwrap() {
+            Command::Timestamp(time) => {
+                assert!(now < Some(time), "{place}: time stands still at {time}");
+                now = Some(time);
+                before.clone_from(&values);
+            }
+            Command::ChangeScalar(id, value) => {
+                if id == clock {
+                    let time = now.expect("a time");
+                    let rises = value == Value::V1;
+                    let phase = if rises { PERIOD / 2 } else { 0 };
+                    assert_eq!(time % PERIOD, phase, "{place}: the clock at {time} ns");
+                    if rises {
+                        assert_eq!(time / PERIOD, edges as u64, "{place}: an edge is missing");
+                        at_edge(edges, &before, &signals, &ids, trace, place);
+                        edges += 1;
+                    }
+                }
+                values.insert(id, vec![value]);
+            }
+            Command::ChangeVector(id, vector) => {
+                values.insert(id, vector.iter().collect());
+            }
+            other => panic!("{place}: {other:?}"),
+        }
+    }
+    assert_eq!(edges, trace.len(), "{place}: rising edges");
+    let end = PERIOD * edges as u64 - PERIOD / 2;
+    assert_eq!(now, Some(end), "{place}: the last edge ends the waves");
+}
+
+/// The identifier of each signal. Exactly these signals are there, in these scopes.
+fn ids(header: &Header, top: &str, signals: &[Signal]) -> Vec<IdCode> {
+    let mut variables = 0;
+    let [ScopeItem::Scope(scope)] = header.items.as_slice() else { panic!("one top scope") };
+    assert_eq!(scope.identifier, top);
+    for item in &scope.items {
+        match item {
+            ScopeItem::Var(_) => variables += 1,
+            ScopeItem::Scope(rank) => variables += rank.items.len(),
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!(variables, signals.len() + 1, "the signals and the clock");
+    let ids: Vec<IdCode> = signals
+        .iter()
+        .map(|signal| {
+            let path: Vec<&str> = [top, &signal.scope, &signal.name]
+                .into_iter()
+                .filter(|part| !part.is_empty())
+                .collect();
+            let found = header.find_var(&path).unwrap_or_else(|| panic!("there is no {path:?}"));
+            assert_eq!((found.var_type, found.size), (VarType::Wire, signal.width), "{path:?}");
+            found.code
+        })
+        .collect();
+    let mut unique = ids.clone();
+    unique.sort_by_key(ToString::to_string);
+    unique.dedup();
+    assert_eq!(unique.len(), ids.len(), "two signals share an identifier");
+    ids
+}
+
+fn at_edge(
+    edge: usize,
+    values: &HashMap<IdCode, Vec<Value>>,
+    signals: &[Signal],
+    ids: &[IdCode],
+    trace: &Trace,
+    place: &str,
+) {
+    for (signal, id) in signals.iter().zip(ids) {
+        let at = format!("{place}, cycle {edge}: {}.{}", signal.scope, signal.name);
+        let value = values.get(id).unwrap_or_else(|| panic!("{at} has no value"));
+        assert_eq!(value.len(), signal.width as usize, "{at}");
+        match trace.get(edge, &signal.column) {
+            None => assert!(value.iter().all(|&bit| bit == Value::X), "{at}: {value:?}"),
+            Some(wanted) => {
+                let found = value.iter().fold(0_u64, |word, bit| match bit {
+                    Value::V0 => word << 1,
+                    Value::V1 => word << 1 | 1,
+                    other => panic!("{at}: a bit is {other}"),
+                });
+                // Two's complement in the signal's width.
+                let wanted = wanted as u64 & (u64::MAX >> (64 - signal.width));
+                assert_eq!(found, wanted, "{at}");
+            }
+        }
+    }
+}
