@@ -194,7 +194,8 @@ fn unit(format: QFormat) -> f64 {
 /// The first field that does not.
 pub fn rom(design: &Design) -> Result<(), Complaint> {
     for (real, row) in design.rows().iter().zip(design.rom().rows()) {
-        let shift = real.exponent.log2().floor() as i32;
+        // Counted up, because a logarithm may round up to the next integer.
+        let shift = (1..64).take_while(|&e| 2_f64.powi(e) <= real.exponent).count() as i32;
         let mut wanted = Vec::new();
         if let Some(cubic) = &real.polynomial {
             let coefficients = match design.config().form {

@@ -113,7 +113,11 @@ fn exponents(random: &mut Random, form: Form) -> Exponents {
         .map(|_| match random.integer(0, 11) {
             0..=3 => random.integer(1, 8) as f64,
             4..=6 => random.integer(1, 256) as f64,
-            7 => random.real(1.0, 4.0),
+            7 if random.once_in(2) => random.real(1.0, 4.0),
+            7 => {
+                let power = (random.integer(1, 10) as f64).exp2();
+                random.one_of(&[power.next_down(), power, power.next_up()])
+            }
             8 => 1.0 + random.real(0.0, 1.0) * random.real(-30.0, 0.0).exp2(),
             9 => log_up_to(random, 1e4),
             _ if form == Form::Power && !random.once_in(8) => random.real(1.0, 64.0),

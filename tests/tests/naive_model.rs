@@ -5,10 +5,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use blysk_tests::comparison::{self, Comparison, Complaint, Kind};
 use blysk_tests::configurations::{self, METHODS, Random};
+use blysk_tests::naive::Naive;
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::design::Design;
+use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::rounding::Rounding;
+use num_bigint::BigInt;
 use rayon::prelude::*;
 
 /// The seed of everything random here.
@@ -24,6 +27,8 @@ const INPUTS: usize = 260;
 struct Tally {
     compared: u64,
     designs: u64,
+    /// Designs with a quotient at the clamp.
+    saturated: u64,
     refusals: BTreeMap<String, u64>,
     complaints: Vec<(String, Complaint)>,
 }
@@ -32,6 +37,7 @@ impl Tally {
     fn join(mut self, other: Self) -> Self {
         self.compared += other.compared;
         self.designs += other.designs;
+        self.saturated += other.saturated;
         for (text, count) in other.refusals {
             *self.refusals.entry(text).or_default() += count;
         }
@@ -141,6 +147,47 @@ fn a_million_random_inputs_agree() {
     tally.assert_none();
     assert!(tally.compared >= 1_000_000, "{}", tally.compared);
     assert!(tally.refused() * 2 < count, "refusals are to be a minority: {}", tally.refused());
+}
+
+/// Divisors so coarse, under a budget so large, that a ratio meant for [0, Q] passes 1.
+fn coarse_divider(exponent: f64, q: f64, rounding: Rounding) -> Tally {
+    let mut config = configurations::plain();
+    config.exponents = Exponents::new(vec![exponent]).expect("an exponent");
+    (config.q, config.g) = (q, 0.1);
+    (config.tail, config.rounding) = (Tail::Rational, rounding);
+    config.error_budget_ulp = 1e6;
+    guarded(&config, |tally| {
+        let Ok(design) = Design::new(config.clone()) else { return Ok(()) };
+        tally.designs += 1;
+        let cut = design.rows()[0].cut;
+        let xs: Vec<i64> = (0..40).map(|below| cut - 1 - below).collect();
+        let mut comparison = Comparison::new(&design);
+        tally.compared += comparison.inputs(0, &xs)?;
+        let one = design.datapath().output_one();
+        let naive = Naive::new(&design);
+        let passes = xs.iter().any(|&x| naive.answer(0, x).intensity == BigInt::from(one));
+        tally.saturated += u64::from(passes);
+        Ok(())
+    })
+}
+
+#[test]
+fn a_quotient_that_passes_one_saturates() {
+    let tally = (0..900_u32)
+        .into_par_iter()
+        .map(|index| {
+            let exponent = 2.0 + f64::from(index / 6) * 0.13;
+            let q = [0.7, 0.9, 0.97][index as usize % 3];
+            let rounding = [Rounding::NearestUp, Rounding::Floor][index as usize / 3 % 2];
+            coarse_divider(exponent, q, rounding)
+        })
+        .reduce(Tally::default, Tally::join);
+    println!(
+        "{} inputs of {} designs compared, {} of which pass 1",
+        tally.compared, tally.designs, tally.saturated
+    );
+    tally.assert_none();
+    assert!(tally.designs > 500 && tally.saturated > 20);
 }
 
 /// Every x of Q2.6 (so below 0 and above 1 too) at each of sixteen exponents.
