@@ -12,7 +12,9 @@ use super::{Out, Outcome};
 /// Cubics: a·x³ + b·x² + c·x + d, and the same as 1 − s(k1 − s(k2 − s·k3)) with s = 1 − x. Ratios
 /// x/(A − B·x): A under a, B under b.
 #[derive(ClapArgs)]
-#[command(after_help = "Example: blysk coefficients --method hermite --exponents 2.5,64,1e9 --format csv")]
+#[command(
+    after_help = "Example: blysk coefficients --method hermite --exponents 2.5,64,1e9 --format csv"
+)]
 pub(super) struct Args {
     /// hermite, three_point, tangent, quadratic, rational, composite or schlick.
     #[arg(long, value_name = "METHOD")]
@@ -37,7 +39,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     for exponent in args.exponents.iter() {
         let curve = fit(args.method, exponent, levels)?.curve;
         for (method, values) in lines(args.method, &curve) {
-            let mut row = vec![Cell::from(method.to_string()), Cell::Real(exponent)];
+            let mut row = vec![Cell::from(method.to_string()), Cell::Exponent(exponent)];
             row.extend(values.map(Cell::from));
             rows.push(row);
         }

@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
-use hw_model::exponents::parse_exponent;
+use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::presets;
 use indicatif::{ProgressBar, ProgressStyle};
 use vectors::whole_file::OutputSet;
 
 use super::configuration::{find_preset, load_config};
-use super::table::{Cell, Format, Rows, digits};
+use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome};
 use crate::analysis::error_report::{
     ErrorReport, ErrorRow, Options, Progress, error_report, exhaustive_samples,
@@ -172,9 +172,10 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     let samples = if report.exhaustive { "every representable x" } else { "sampled x" };
     let seen = report.samples;
     let config = design.config();
-    writeln!(out, "{}: {}", config.name, config.description)?;
+    write_folded(out, format!("{}: {}", config.name, config.description).trim_end_matches(": "))?;
     let exponents = design.rom().exponents();
-    writeln!(out, "{} exponents ({exponents}), {samples}: {seen} samples\n", exponents.len())?;
+    let list = listed(exponents);
+    writeln!(out, "{} exponents ({list}), {samples}: {seen} samples\n", exponents.len())?;
     let verdict = if report.holds() { "holds" } else { "DOES NOT HOLD" };
     let failing = report.rows.iter().filter(|row| !row.holds).count();
     write!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
@@ -240,6 +241,13 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     Ok(())
 }
 
+/// The exponents, or their ends where there is no room for all of them.
+fn listed(exponents: &Exponents) -> String {
+    const MOST: usize = 24;
+    let all = exponents.to_string();
+    if all.len() > MOST { format!("{} to {}", exponents.first(), exponents.last()) } else { all }
+}
+
 /// The first row with the greatest value.
 fn greatest(report: &ErrorReport, of: fn(&ErrorRow) -> f64) -> Option<&ErrorRow> {
     report.rows.iter().reduce(|most, row| if of(row) > of(most) { row } else { most })
@@ -277,7 +285,7 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
         rows.push(vec![
             Cell::from(report.configuration.clone()),
             short(worst.total_abs),
-            Cell::Real(worst.n),
+            Cell::Exponent(worst.n),
             Cell::from(digits(worst.total_x, 8)),
             short(worst.approximation_abs),
             Cell::from(format!("{:.3} ulp", report.implementation_ulp)),

@@ -108,7 +108,7 @@ fn for_people(design: &Design, addresses: &[u32]) -> Rows {
     for &address in addresses {
         let exponent = design.rows()[address as usize].exponent;
         let word = word(design, address);
-        rows.push(vec![Cell::Integer(address.into()), Cell::Real(exponent), word.into()]);
+        rows.push(vec![Cell::Integer(address.into()), Cell::Exponent(exponent), word.into()]);
     }
     rows
 }
@@ -124,8 +124,11 @@ fn all_fields(design: &Design, addresses: &[u32]) -> Rows {
     for &address in addresses {
         let row = design.datapath().row(address);
         let exponent = design.rows()[address as usize].exponent;
-        let mut cells =
-            vec![Cell::Integer(address.into()), Cell::Real(exponent), word(design, address).into()];
+        let mut cells = vec![
+            Cell::Integer(address.into()),
+            Cell::Exponent(exponent),
+            word(design, address).into(),
+        ];
         for field in &fields {
             let bits = row.get(field.name);
             cells.push(Cell::Integer(bits));

@@ -32,6 +32,8 @@ pub(super) enum Cell {
     Integer(i64),
     /// Printed with 17 significant digits in CSV.
     Real(f64),
+    /// n: it names a row, so that people see all of its digits too.
+    Exponent(f64),
     Flag(bool),
     /// No value: an empty field, JSON null.
     None,
@@ -43,7 +45,7 @@ impl Cell {
         match self {
             Self::Text(text) => text.clone(),
             Self::Integer(integer) => integer.to_string(),
-            Self::Real(real) => digits(*real, 17),
+            Self::Real(real) | Self::Exponent(real) => digits(*real, 17),
             Self::Flag(flag) => flag.to_string(),
             Self::None => String::new(),
         }
@@ -104,6 +106,28 @@ pub(super) fn digits(value: f64, significant: usize) -> String {
     format!("{}e{power}", trim(mantissa))
 }
 
+/// The shortest text that no other number has: 64, 2.5, 1000001, 1e9.
+fn shortest(value: f64) -> String {
+    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
+    if scientific.len() < plain.len() { scientific } else { plain }
+}
+
+/// Writes text on lines of at most [`TERMINAL_WIDTH`] columns; a longer word has a line of its own.
+pub(super) fn write_folded(out: &mut dyn Write, text: &str) -> std::io::Result<()> {
+    let mut column = 0;
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        if column > 0 && column + 1 + width > usize::from(TERMINAL_WIDTH) {
+            writeln!(out)?;
+            column = 0;
+        }
+        let space = if column > 0 { " " } else { "" };
+        write!(out, "{space}{word}")?;
+        column += space.len() + width;
+    }
+    writeln!(out)
+}
+
 /// Rows under named columns.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rows {
@@ -162,6 +186,7 @@ impl Rows {
         for row in &self.rows {
             table.add_row(row.iter().map(|cell| match cell {
                 Cell::Real(real) => digits(*real, significant),
+                Cell::Exponent(exponent) => shortest(*exponent),
                 cell => cell.text(),
             }));
         }

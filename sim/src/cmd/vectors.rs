@@ -7,6 +7,7 @@ use clap::Args as ClapArgs;
 use vectors::{Bundle, Strategy};
 
 use super::configuration::Configuration;
+use super::table::write_folded;
 use super::{Out, Outcome};
 
 /// Write test vectors for an RTL simulation.
@@ -61,20 +62,4 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         write_folded(out, &format!("note: {note}"))?;
     }
     Ok(Outcome::Good)
-}
-
-/// Text on lines of at most 100 columns.
-fn write_folded(out: &mut Out, text: &str) -> std::io::Result<()> {
-    const WIDTH: usize = 100;
-    let mut column = 0;
-    for word in text.split(' ') {
-        if column > 0 && column + 1 + word.len() > WIDTH {
-            writeln!(out)?;
-            column = 0;
-        }
-        let space = if column > 0 { " " } else { "" };
-        write!(out, "{space}{word}")?;
-        column += space.len() + word.len();
-    }
-    writeln!(out)
 }

@@ -94,6 +94,17 @@ fn json_and_csv_say_the_same() {
     }
 }
 
+/// n names the row: two exponents never look the same, whatever the digits of the coefficients.
+#[test]
+fn the_table_has_every_digit_of_n() {
+    let bench = bench!();
+    let list = "2.123456789,100001,1000001.5,1e9,1e15";
+    let table = bench.good(&format!("coefficients --method tangent --exponents {list}"));
+    let shown: Vec<&str> =
+        table.lines().skip(1).map(|line| line.split_whitespace().nth(1).unwrap()).collect();
+    assert_eq!(shown.join(","), list, "{table}");
+}
+
 /// The table for people says the same, in five digits.
 #[test]
 fn the_table_has_five_digits() {

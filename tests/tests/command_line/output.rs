@@ -52,6 +52,25 @@ fn tables_fit_a_terminal() {
     }
 }
 
+/// A long description and a long list of exponents do not break the lines.
+#[test]
+fn long_texts_are_folded() {
+    let bench = bench!();
+    let odd: Vec<String> = (1..120).step_by(2).map(|n| n.to_string()).collect();
+    let long = CONFIGURATIONS[0]
+        .1
+        .replace("few bits", &"many words ".repeat(30))
+        .replace("1..=8", &odd.join(","));
+    bench.write("long.json", long);
+    bench.write("in.csv", "n,x\n1,0.5\n");
+    for command in ["report --bound 1", "rom", "vectors --count 64 --out v"] {
+        let command = format!("{command} --config long.json");
+        narrow(&command, &bench.good(&command));
+    }
+    let report = bench.good("report --bound 1 --config long.json");
+    assert!(report.contains("60 exponents (1 to 119)"), "{report}");
+}
+
 /// Every line of every preset's report, whether or not its bound holds.
 #[test]
 fn reports_of_presets_fit_a_terminal() {
