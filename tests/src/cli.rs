@@ -236,7 +236,10 @@ pub fn tree(root: &Path) -> Tree {
         for entry in fs::read_dir(&directory).expect("a directory") {
             let path = entry.expect("an entry").path();
             let name = path.strip_prefix(root).expect("it is below").to_owned();
-            if path.is_dir() {
+            // A link is what it says, and not what it leads to, which may be an endless device.
+            if let Ok(target) = fs::read_link(&path) {
+                found.insert(name, Some(target.display().to_string().into_bytes()));
+            } else if path.is_dir() {
                 waiting.push(path);
                 found.insert(name, None);
             } else {

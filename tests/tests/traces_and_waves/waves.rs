@@ -92,9 +92,11 @@ pub fn check(bytes: &[u8], trace: &Trace, design: &Design, place: &str) {
                         edges += 1;
                     }
                 }
+                assert!(id == clock || with_the_edge(now), "{place}: a change at {now:?} ns");
                 values.insert(id, vec![value]);
             }
             Command::ChangeVector(id, vector) => {
+                assert!(with_the_edge(now), "{place}: a change at {now:?} ns");
                 values.insert(id, vector.iter().collect());
             }
             other => panic!("{place}: {other:?}"),
@@ -103,6 +105,11 @@ pub fn check(bytes: &[u8], trace: &Trace, design: &Design, place: &str) {
     assert_eq!(edges, trace.len(), "{place}: rising edges");
     let end = PERIOD * edges as u64 - PERIOD / 2;
     assert_eq!(now, Some(end), "{place}: the last edge ends the waves");
+}
+
+/// Registers and inputs change with the rising edge, or are there from the start.
+fn with_the_edge(now: Option<u64>) -> bool {
+    now.is_some_and(|now| now == 0 || now % PERIOD == PERIOD / 2)
 }
 
 /// The identifier of each signal. Exactly these signals are there, in these scopes.
