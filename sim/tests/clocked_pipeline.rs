@@ -80,7 +80,8 @@ impl<'a> Bench<'a> {
 
 /// What one cycle does: present (or not) this request, take results, reset (rarely).
 fn cycles() -> impl Strategy<Value = Vec<(bool, u32, i64, bool, bool)>> {
-    let cycle = (any::<bool>(), 0_u32..10, -256_i64..256, any::<bool>(), prop::bool::weighted(0.02));
+    let cycle =
+        (any::<bool>(), 0_u32..10, -256_i64..256, any::<bool>(), prop::bool::weighted(0.02));
     prop::collection::vec(cycle, 1..200)
 }
 
@@ -165,10 +166,12 @@ fn an_exponent_without_a_word_is_a_flag_and_zero() {
 fn a_run_counts_what_happened() {
     let design = small();
     let latency = design.datapath().rank_count() as u64;
-    let cycle = |request, ready| Ok::<_, Infallible>(StimulusCycle { request, ready, reset: false });
+    let cycle =
+        |request, ready| Ok::<_, Infallible>(StimulusCycle { request, ready, reset: false });
     let one = Some((0, 128));
     // Three requests with a bubble between the second and the third, then results wait two cycles.
-    let mut stimulus = vec![cycle(one, true), cycle(one, true), cycle(None, true), cycle(one, true)];
+    let mut stimulus =
+        vec![cycle(one, true), cycle(one, true), cycle(None, true), cycle(one, true)];
     for index in 4..latency + 2 {
         stimulus.push(cycle(None, index < latency));
     }

@@ -25,8 +25,7 @@ impl Row {
         let (_, text) = cell.unwrap_or_else(|| panic!("the table has no column {column:?}"));
         let parse = |text: &String| {
             let place = format!("{} n = {}, {column}", self.method, self.exponent);
-            text.parse()
-                .unwrap_or_else(|_| panic!("{place}: {text:?} is not a number"))
+            text.parse().unwrap_or_else(|_| panic!("{place}: {text:?} is not a number"))
         };
         (!text.is_empty()).then(|| parse(text))
     }

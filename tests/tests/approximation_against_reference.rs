@@ -26,10 +26,8 @@ fn compare(row: &Row, column: &str, found: Peak, complaints: &mut Vec<String>) -
     let error = (found.error - wanted).abs();
     if error.is_nan() || error > (DIGITS * wanted).max(NOISE) {
         let (method, n) = (&row.method, row.exponent);
-        complaints.push(format!(
-            "{method} n = {n}: {column} = {:e}, wanted {wanted:e}",
-            found.error
-        ));
+        complaints
+            .push(format!("{method} n = {n}: {column} = {:e}, wanted {wanted:e}", found.error));
     }
     1
 }
@@ -68,11 +66,7 @@ fn every_maximum_is_where_it_should_be() {
         let found = approximation(&fit, row.exponent, Region::epicentre(&fit)).absolute;
         let (s, error) = (1.0 - x, (found.s / (1.0 - x) - 1.0).abs());
         let (method, n) = (&row.method, row.exponent);
-        assert!(
-            error <= PLACE,
-            "{method} n = {n}: at s = {:e}, wanted {s:e}",
-            found.s
-        );
+        assert!(error <= PLACE, "{method} n = {n}: at s = {:e}, wanted {s:e}", found.s);
         compared += 1;
     }
     // 150 rows with an epicentre, less eleven in which the method is x^n itself.

@@ -29,11 +29,7 @@ fn coefficients(fit: &Fit) -> Vec<(&'static str, f64)> {
 /// The complaint about one coefficient, if there is one. Where the table has zero, zero is demanded.
 fn complaint(row: &Row, name: &str, got: f64) -> Option<String> {
     let wanted = row.value(name).expect("every coefficient has its cell");
-    let error = if wanted == 0.0 {
-        got.abs()
-    } else {
-        (got / wanted - 1.0).abs()
-    };
+    let error = if wanted == 0.0 { got.abs() } else { (got / wanted - 1.0).abs() };
     let allowed = if wanted == 0.0 { 0.0 } else { TOLERANCE };
     (error.is_nan() || error > allowed).then(|| {
         let (method, n) = (&row.method, row.exponent);
@@ -67,11 +63,7 @@ fn the_denominator_at_one_is_a_minus_b() {
         if let Curve::Rational(rational) = fit.curve {
             let difference = row.value("a").unwrap() - row.value("b").unwrap();
             let error = (rational.at_one - difference).abs();
-            assert!(
-                error <= 1e-15 * row.exponent,
-                "{method} n = {}: {error:e}",
-                row.exponent
-            );
+            assert!(error <= 1e-15 * row.exponent, "{method} n = {}: {error:e}", row.exponent);
             compared += 1;
         }
     }

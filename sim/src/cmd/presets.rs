@@ -67,7 +67,9 @@ fn multipliers(design: &Design) -> String {
     if let Some(polynomial) = &formats.polynomial {
         let v = polynomial.v.width();
         let [_, _, _, c3] = polynomial.coefficients;
-        sizes.extend([c3, polynomial.t1, polynomial.t2].map(|format| format!("{}x{v}", format.width())));
+        sizes.extend(
+            [c3, polynomial.t1, polynomial.t2].map(|format| format!("{}x{v}", format.width())),
+        );
     }
     if let Some(tail) = &formats.tail {
         sizes.push(format!("{}x{}", tail.b.width(), formats.input.width()));

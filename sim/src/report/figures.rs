@@ -69,10 +69,8 @@ pub fn curves(design: &Design, exponent: f64) -> Chart {
         Curve::new(name, grid.iter().map(|&(degrees, x)| (degrees, value(x))).collect())
     };
     let levels = design.config().levels().unwrap_or_default();
-    let mut curves = vec![
-        curve("Phong", &|x| phong(exponent, x)),
-        curve("Schlick", &|x| schlick(exponent, x)),
-    ];
+    let mut curves =
+        vec![curve("Phong", &|x| phong(exponent, x)), curve("Schlick", &|x| schlick(exponent, x))];
     if let Ok(fit) = fit(Method::Rational, exponent, levels) {
         // Above q it is not meant, and for small Q it has a pole there.
         let points = grid

@@ -71,11 +71,8 @@ pub fn write(
     let mut text = serde_json::to_string_pretty(report)?;
     text.push('\n');
     set.write(json, text)?;
-    let charts = [
-        figures::epicentre(report),
-        figures::full_range(report),
-        figures::curves(design, curves),
-    ];
+    let charts =
+        [figures::epicentre(report), figures::full_range(report), figures::curves(design, curves)];
     for (name, chart) in PLOTS.into_iter().zip(charts) {
         picture(set, name, &chart)?;
     }
