@@ -190,6 +190,32 @@ fn a_quotient_that_passes_one_saturates() {
     assert!(tally.designs > 500 && tally.saturated > 20);
 }
 
+/// A variable so coarse that its error squared counts: a bound of first order is 40 000 ulp short.
+#[test]
+fn the_bound_holds_for_a_coarse_variable() {
+    let mut config = configurations::plain();
+    config.exponents = "2.3622864941670483,2.518397435842244,3,8,15.999999999999998,103,104,\
+        792.1275377745093,5030.632625785858"
+        .parse()
+        .expect("nine exponents");
+    (config.input, config.output) =
+        ("UQ0.5".parse().expect("a format"), "UQ0.21".parse().expect("a format"));
+    config.q = 0.469_917_089_615_132_6;
+    config.rounding = Rounding::NearestEven;
+    config.error_budget_ulp = 1e6;
+    let tally = guarded(&config, |tally| {
+        let design = Design::new(config.clone()).expect("the budget is large");
+        let xs: Vec<i64> = (0..32).collect();
+        let mut comparison = Comparison::new(&design);
+        for address in 0..9 {
+            tally.compared += comparison.inputs(address, &xs)?;
+        }
+        Ok(())
+    });
+    tally.assert_none();
+    assert_eq!(tally.compared, 9 * 32);
+}
+
 /// Every x of Q2.6 (so below 0 and above 1 too) at each of sixteen exponents.
 fn every_input(config: &Config) -> Tally {
     guarded(config, |tally| {

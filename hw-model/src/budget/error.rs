@@ -59,7 +59,8 @@ pub(super) fn horner(terms: &[f64], subtract: bool) -> Vec<f64> {
 #[derive(Debug, Clone, Copy)]
 pub struct Sensitivity {
     row: RowPolynomial,
-    slope: f64,
+    /// The greatest |f′|, |f″| and |f‴| on the row's region.
+    slopes: [f64; 3],
 }
 
 /// What the formats are between: input and output fraction bits, form and rounding.
@@ -87,8 +88,10 @@ impl Sensitivity {
     /// The sensitivity of a row.
     #[must_use]
     pub fn of(row: RowPolynomial, surroundings: &Surroundings) -> Self {
-        let polynomial = horner(&row.coefficients, surroundings.centred);
-        Self { row, slope: magnitude(&derivative(&polynomial), row.v) }
+        let first = derivative(&horner(&row.coefficients, surroundings.centred));
+        let second = derivative(&first);
+        let third = derivative(&second);
+        Self { row, slopes: [first, second, third].map(|slope| magnitude(&slope, row.v)) }
     }
 
     /// The row.
@@ -101,20 +104,24 @@ impl Sensitivity {
     #[must_use]
     pub fn bound(&self, bits: &FractionBits, surroundings: &Surroundings) -> Bound {
         let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
-        let v = self.row.v.1;
+        let line = |fraction, whole| {
+            if fraction >= whole { 0.0 } else { surroundings.line_error(fraction) }
+        };
+        let error = if surroundings.centred {
+            line(v_bits, surroundings.input.saturating_sub(self.row.shift))
+        } else {
+            0.0
+        };
+        // Taylor's series of the cubic ends here, so this is no approximation.
+        let [first, second, third] = self.slopes;
+        let variable = error * (first + error * (second / 2.0 + error * third / 6.0));
+        // The lines see the rounded variable, which may lie outside the region by its error.
+        let v = self.row.v.1 + error;
         let coefficient = [c0, c1, c2, c3]
             .iter()
             .zip(self.row.coefficients)
             .rev()
             .fold(0.0, |sum, (&fraction, value)| sum * v + coefficient_error(value, fraction));
-        let line = |fraction, whole| {
-            if fraction >= whole { 0.0 } else { surroundings.line_error(fraction) }
-        };
-        let variable = if surroundings.centred {
-            self.slope * line(v_bits, surroundings.input.saturating_sub(self.row.shift))
-        } else {
-            0.0
-        };
         let rounding = line(t1, (c3 + v_bits).max(c2)) * v * v
             + line(t2, (t1 + v_bits).max(c1)) * v
             + line(surroundings.output, (t2 + v_bits).max(c0));

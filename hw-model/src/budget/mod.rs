@@ -15,6 +15,7 @@
 //! data path      S·δv  + ρ1·V² + ρ2·V + ρ3        (ρ = ½ or 1 ulp by the mode, 0 where exact)
 //! ```
 //!
+//! where V includes δv, and S·δv stands for the three terms that Taylor's series of a cubic has;
 //! and for the tail g = x/D, D = A − B·x, whose error grows towards its upper end x = cut:
 //! (δA + x·δB + ρD)·g/D + ρ of the quotient. See [`error`].
 //!
