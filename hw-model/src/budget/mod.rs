@@ -34,10 +34,6 @@ use thiserror::Error;
 
 use crate::format::{FormatError, QFormat};
 
-/// Ulp that a bound may pass the budget by: the f64 arithmetic of the analysis, and coefficients that
-/// are exact but are charged an f64 rounding all the same.
-const TOLERANCE: f64 = 1e-6;
-
 /// What the analysis must know of the polynomial of one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowPolynomial {

@@ -2,7 +2,7 @@
 
 use super::error::{FractionBits, Register, Sensitivity, Surroundings, horner};
 use super::polynomial::magnitude;
-use super::{Bound, BudgetError, RowPolynomial, TOLERANCE};
+use super::{Bound, BudgetError, RowPolynomial};
 use crate::format::MAX_WIDTH;
 
 /// Fraction bits beyond the output's that the search starts from. Errors of ½ ulp at 2^−14 of an
@@ -34,7 +34,7 @@ impl Search<'_> {
         let integer = self.integer_bits();
         let mut bits = self.start(&integer);
         let (worst, exponent) = self.worst(&bits);
-        if worst > self.budget + TOLERANCE {
+        if worst > self.budget {
             // In the power form V is x, which nobody stated.
             let own = usize::from(!self.surroundings.centred);
             let pinned = self.pinned[own..].iter().any(Option::is_some);
@@ -112,7 +112,7 @@ impl Search<'_> {
             let mut fewer = *bits;
             fewer[index] -= 1;
             let error_after = self.worst(&fewer).0;
-            if error_after > self.budget + TOLERANCE {
+            if error_after > self.budget {
                 continue;
             }
             // A hundredth of a millionth of an ulp keeps a step that adds no error finite.

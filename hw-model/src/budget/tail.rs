@@ -7,7 +7,7 @@
 
 use super::error::{Surroundings, coefficient_error};
 use super::range::Range;
-use super::{BudgetError, RowTail, TOLERANCE};
+use super::{BudgetError, RowTail};
 use crate::datapath::tail::Divider;
 use crate::format::QFormat;
 
@@ -96,7 +96,7 @@ pub fn widths(
     let most = surroundings.output + 14;
     let bits = (least..=most.max(least))
         .map(choose)
-        .find(|&bits| worst(bits).0 <= budget + TOLERANCE)
+        .find(|&bits| worst(bits).0 <= budget)
         .ok_or_else(|| {
             let (needed, exponent) = worst(choose(most.max(least)));
             let what = "the divider's widths";
