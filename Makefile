@@ -42,8 +42,9 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	$(CARGO) test --workspace --locked --profile release-checked
 
 bench: ## measure speed
-	@compgen -G '*/benches/*.rs' > /dev/null || { echo "there are no benchmarks yet" >&2; exit 1; }
-	$(CARGO) bench --workspace --locked
+	$(CARGO) bench --package sim --bench throughput --locked
+	@echo "Every representable x of every exponent of preset paper:"
+	@time $(BLYSK) report --preset paper --exhaustive
 
 exhaustive: ## measure every preset at every representable x; takes long
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \
