@@ -266,9 +266,26 @@ impl Config {
         if value_bits < 0 || !fraction.contains(&self.input.fraction_bits()) {
             return wrong("input", "x lies in [0, 1]: use UQ0.n, UQ1.n or Q2.n with n of 1 to 62");
         }
-        let stated_u = self.widths.u.is_some();
-        if stated_u && (self.form == Form::Power || self.method == Method::Schlick) {
-            return wrong("widths.u", "only the centred form has a u");
+        self.check_stated()
+    }
+
+    /// A format stated for a register that the configuration does not have is a mistake.
+    fn check_stated(&self) -> Result<(), ConfigError> {
+        let StatedWidths { u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor } = &self.widths;
+        let polynomial = self.method != Method::Schlick;
+        let stated = |formats: &[&Option<QFormat>]| formats.iter().any(|format| format.is_some());
+        if stated(&[u]) && (self.form == Form::Power || !polynomial) {
+            return wrong("widths.u", "only the centred form has a u; leave it out");
+        }
+        if stated(&[c3, c2, c1, c0, t1, t2]) && !polynomial {
+            return wrong("widths", "schlick has no polynomial; leave out c3 to c0, t1 and t2");
+        }
+        if stated(&[tail_a, tail_b, divisor]) && self.tail == Tail::Zero {
+            return wrong(
+                "widths",
+                "a zero tail has no divider; leave out tail_a, tail_b and divisor, or say \
+                 \"tail\": \"rational\"",
+            );
         }
         Ok(())
     }

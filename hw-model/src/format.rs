@@ -50,6 +50,9 @@ pub enum FormatError {
         /// Its width in bits.
         width: i64,
     },
+    /// More than 63 fraction bits.
+    #[error("{0} has too many fraction bits; a format has at most 63")]
+    Fraction(String),
 }
 
 /// A value that its format cannot hold, and the policy that refused it.
@@ -104,12 +107,14 @@ impl QFormat {
 
     fn checked(self) -> Result<Self, FormatError> {
         let width = i64::from(self.integer) + i64::from(self.fraction);
-        // 63 fraction bits at most: an exact decimal then has at most 63 digits after the point.
-        if (1..=i64::from(MAX_WIDTH)).contains(&width) && self.fraction <= MAX_WIDTH {
-            Ok(self)
-        } else {
-            Err(FormatError::Width { text: self.to_string(), width })
+        if !(1..=i64::from(MAX_WIDTH)).contains(&width) {
+            return Err(FormatError::Width { text: self.to_string(), width });
         }
+        // An exact decimal then has at most 63 digits after the point.
+        if self.fraction > MAX_WIDTH {
+            return Err(FormatError::Fraction(self.to_string()));
+        }
+        Ok(self)
     }
 
     /// True when the format has a sign bit.
@@ -282,6 +287,8 @@ mod tests {
                 "{text}"
             );
         }
+        let long = "UQ-63.64".to_owned();
+        assert_eq!(long.parse::<QFormat>(), Err(FormatError::Fraction(long.clone())));
     }
 
     proptest! {

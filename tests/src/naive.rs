@@ -7,8 +7,8 @@
 //!
 //! Where the description leaves something open, the golden model's documented contract is followed:
 //!
-//! - a part that does not answer is fed a harmless x: the polynomial the greatest x the input format
-//!   has in [0, 1], the divider 0;
+//! - a part that does not answer is fed a harmless x: the polynomial u = 0, or in the power form the
+//!   greatest x the input format has in [0, 1]; the divider 0;
 //! - a missing ROM word reads as zeros, also in fields that are constants of the hardware;
 //! - the clamp of an output format that does not reach 1 is its greatest value;
 //! - D is rounded once to its own format, and the quotient x/D once more to the output.
@@ -216,7 +216,12 @@ impl<'a> Naive<'a> {
         let region = self.region(row, x);
         let row = row.copied().unwrap_or_default();
 
-        let polynomial_x = if region == "polynomial" { &clamped } else { &greatest };
+        // u = 0 is x = 1, which the input format need not reach.
+        let harmless = match self.config.form {
+            Form::Power => greatest,
+            Form::Centred => power_of_two(self.formats.input.fraction_bits()),
+        };
+        let polynomial_x = if region == "polynomial" { &clamped } else { &harmless };
         let lines = self.lines(&row, polynomial_x);
         let tail_x = if region == "tail" { clamped } else { BigInt::ZERO };
         let divisor = self.divisor(&row, &tail_x);

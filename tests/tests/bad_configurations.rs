@@ -148,6 +148,14 @@ fn fields_that_cannot_be_used_are_named() {
         (json!({"error_budget_ulp": -1.0}), vec!["`error_budget_ulp`", "above 0"]),
         (json!({"error_budget_ulp": 1e7}), vec!["`error_budget_ulp`", "1e6"]),
         (json!({"form": "power", "widths": {"u": "UQ1.8"}}), vec!["`widths.u`", "centred"]),
+        (
+            json!({"tail": "zero", "widths": {"divisor": "UQ10.10"}}),
+            vec!["`widths`", "no divider", "rational"],
+        ),
+        (
+            json!({"method": "schlick", "tail": "rational", "widths": {"t1": "UQ1.8"}}),
+            vec!["`widths`", "no polynomial", "t1"],
+        ),
     ] {
         refused(&changes, &words);
     }

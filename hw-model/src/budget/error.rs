@@ -103,6 +103,9 @@ impl Sensitivity {
     /// The error bounds of the row, in output ulp.
     #[must_use]
     pub fn bound(&self, bits: &FractionBits, surroundings: &Surroundings) -> Bound {
+        if !self.row.answers {
+            return Bound::default();
+        }
         let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
         let line = |fraction, whole| {
             if fraction >= whole { 0.0 } else { surroundings.line_error(fraction) }

@@ -45,6 +45,9 @@ pub struct RowPolynomial {
     pub coefficients: [f64; 4],
     /// The least and the greatest v the polynomial is given.
     pub v: (f64, f64),
+    /// False where the cut lies above every x of the input format (UQ0.n and a large n): the polynomial
+    /// is still fed, so its ranges count, but its error reaches nobody.
+    pub answers: bool,
 }
 
 /// What the analysis must know of the tail of one row.

@@ -9,8 +9,8 @@
 //! | `zero`       | 0 ≤ x < cut without one; x < 0; no ROM word | 0                     |
 //!
 //! A part that does not answer is fed a harmless x, so that what was proved about the ranges of its
-//! registers holds for every input: the polynomial gets x = 1, which every row's region contains, and
-//! the divider x = 0.
+//! registers holds for every input: the polynomial gets u = 0, or x = 1 (the greatest x, where the format
+//! does not reach 1), which the ranges of every row include, and the divider x = 0.
 //!
 //! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1;
 //! it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
@@ -113,16 +113,22 @@ impl FrontEnd {
     }
 
     /// The polynomial's variable for a clamped x: x itself, or u = (1 − x)·2^shift. Where the
-    /// polynomial does not answer, its value at x = `greatest`.
+    /// polynomial does not answer, the greatest x, or u = 0.
     #[inline(always)]
     pub fn variable<L: Lane>(&self, x: L, region: Region, shift: u32) -> L {
-        let greatest = L::from_bits(self.greatest);
-        let x = if region == Region::Polynomial { x } else { greatest };
+        let answers = region == Region::Polynomial;
         match self.variable {
             None => L::ZERO,
-            Some(Variable::X) => x,
+            Some(Variable::X) => {
+                if answers {
+                    x
+                } else {
+                    L::from_bits(self.greatest)
+                }
+            }
             Some(Variable::U { up, drop, rounding }) => {
-                round_shift((L::from_bits(self.one) - x) << (shift + up), drop, rounding)
+                let s = if answers { L::from_bits(self.one) - x } else { L::ZERO };
+                round_shift(s << (shift + up), drop, rounding)
             }
         }
     }

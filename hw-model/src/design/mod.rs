@@ -108,7 +108,8 @@ impl Design {
         &self.rows
     }
 
-    /// The proved error bound of each row, in output ulp.
+    /// The proved error bound of each row, in output ulp. (An output format that does not reach 1 shows
+    /// its greatest value there: that ulp is the format's, and not in the bound.)
     #[must_use]
     pub fn bounds(&self) -> &[Bound] {
         &self.bounds

@@ -82,27 +82,28 @@ fn stated(config: &Config, register: Register) -> Option<QFormat> {
 }
 
 /// The row in the variable of the form. In the centred form u = s·2^e, so k_i becomes k_i·2^−ie
-/// (exact in binary floating point), and the region reaches from 1 to the cut.
+/// (exact in binary floating point). The region reaches from 1 to the cut; what the polynomial is fed
+/// where it does not answer, u = 0 or the greatest x, belongs to the range as well.
 fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
     let cubic = row.polynomial.as_ref()?;
     let (one, ulp) = (config.input.one(), config.input.ulp());
     let greatest = config.input.max_bits().min(one);
-    let lowest = row.cut.min(greatest);
+    let answers = row.cut <= greatest;
     let in_u = |s: i64| s as f64 * ulp * f64::from(row.shift).exp2();
     let (coefficients, v) = match config.form {
         Form::Power => {
             let power = &cubic.power;
-            let v = (lowest as f64 * ulp, greatest as f64 * ulp);
+            let v = (row.cut.min(greatest) as f64 * ulp, greatest as f64 * ulp);
             ([power.d, power.c, power.b, power.a], v)
         }
         Form::Centred => {
             let scale = |power: u32| (-f64::from(power * row.shift)).exp2();
             let k = &cubic.centred;
-            let v = (in_u(one - greatest), in_u(one - lowest));
+            let v = (0.0, if answers { in_u(one - row.cut) } else { 0.0 });
             ([1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)], v)
         }
     };
-    Some(RowPolynomial { exponent: row.exponent, shift: row.shift, coefficients, v })
+    Some(RowPolynomial { exponent: row.exponent, shift: row.shift, coefficients, v, answers })
 }
 
 /// Quantises every coefficient, adds the ROM fields, and returns the rows as the ROM has them.

@@ -180,9 +180,12 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     let failing = report.rows.iter().filter(|row| !row.holds).count();
     write!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
     match report.rows.iter().find(|row| !row.holds) {
-        Some(first) => {
-            writeln!(out, " ({failing} exponents exceed it, the first is n = {})", first.n)?
-        }
+        Some(first) => writeln!(
+            out,
+            " ({failing} of {} exponents exceed it, the first is n = {})",
+            report.rows.len(),
+            first.n
+        )?,
         None => writeln!(out, " for every exponent")?,
     }
     writeln!(
