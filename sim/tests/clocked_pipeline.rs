@@ -189,3 +189,24 @@ fn a_run_counts_what_happened() {
     assert_eq!(counts.cycles, latency + 2 + 3);
     assert_eq!(seen, counts.cycles);
 }
+
+#[test]
+fn the_example_stimulus_shows_a_stall_a_bubble_and_a_reset() {
+    let design = design("paper");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/stimulus.csv");
+    let lines = vectors::read_stimulus(path.as_ref(), design.rom(), design.config().input).unwrap();
+    let stimulus = lines.iter().map(|line| {
+        let request = line.valid.then_some((line.case.address, line.case.x));
+        Ok::<_, Infallible>(StimulusCycle { request, ready: line.ready, reset: line.reset })
+    });
+    let mut flags = Vec::new();
+    let counts = run(&mut Pipeline::new(design.datapath()), stimulus, |cycle| {
+        if cycle.outputs.out_valid && cycle.inputs.out_ready {
+            flags.push(cycle.outputs.status);
+        }
+        Ok(())
+    });
+    let Ok(counts) = counts;
+    assert!(counts.stalls > 0 && counts.bubbles > 0 && counts.lost_to_reset > 0, "{counts:?}");
+    assert!(flags.contains(&Status::ABOVE_ONE), "{flags:?}");
+}

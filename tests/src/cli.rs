@@ -9,7 +9,7 @@ use tempfile::TempDir;
 
 /// The first argument of [`Bench::new`] names the binary; only an integration test can know it.
 ///
-/// ```ignore
+/// ```text
 /// let bench = blysk_tests::bench!();
 /// ```
 #[macro_export]

@@ -176,17 +176,16 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     let exponents = design.rom().exponents();
     let list = listed(exponents);
     writeln!(out, "{} exponents ({list}), {samples}: {seen} samples\n", exponents.len())?;
-    let verdict = if report.holds() { "holds" } else { "DOES NOT HOLD" };
+    let verdict = if report.holds() { "holds for every exponent" } else { "DOES NOT HOLD" };
     let failing = report.rows.iter().filter(|row| !row.holds).count();
-    write!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
-    match report.rows.iter().find(|row| !row.holds) {
-        Some(first) => writeln!(
+    writeln!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
+    if let Some(first) = report.rows.iter().find(|row| !row.holds) {
+        let all = report.rows.len();
+        writeln!(
             out,
-            " ({failing} of {} exponents exceed it, the first is n = {})",
-            report.rows.len(),
+            "  exceeded by            {failing} of {all} exponents, from n = {}",
             first.n
-        )?,
-        None => writeln!(out, " for every exponent")?,
+        )?;
     }
     writeln!(
         out,
