@@ -10,7 +10,8 @@ use crate::format::MAX_WIDTH;
 /// the normalising shift rules out.
 const GENEROUS: u32 = 14;
 
-/// A ROM bit costs about a sixty-fourth of a multiplier bit (a 4 Kbit block RAM beside a 16×16 DSP block).
+/// How many ROM bits weigh as much as one multiplier bit. A choice, not a measurement: a 4 Kbit block RAM
+/// then weighs a quarter of a 16×16 multiplier.
 const ROM_BITS_PER_MULTIPLIER_BIT: f64 = 64.0;
 
 /// The search's view of a configuration.
