@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Mul, Sub};
 
 use hw_model::config::{Config, Form, Tail};
-use hw_model::datapath::ranks::Formats;
+use hw_model::datapath::formats::Formats;
 use hw_model::design::Design;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;

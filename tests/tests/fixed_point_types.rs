@@ -6,8 +6,8 @@
 
 use fixed::types::I64F64;
 use hw_model::config::Form;
+use hw_model::datapath::formats::PolynomialFormats;
 use hw_model::datapath::front_end::Region;
-use hw_model::datapath::ranks::PolynomialFormats;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::presets;

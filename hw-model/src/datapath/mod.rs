@@ -15,6 +15,7 @@
 
 mod block;
 pub mod clamp;
+pub mod formats;
 pub mod front_end;
 pub mod ranks;
 pub mod signals;

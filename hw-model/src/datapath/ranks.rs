@@ -16,6 +16,7 @@ use crate::rom::{FieldName, Place, Rom, Row};
 use crate::rounding::Lane;
 
 use super::clamp::clamp;
+use super::formats::{Formats, PolynomialFormats, TailFormats};
 use super::front_end::{FrontEnd, Region};
 use super::signals::{Register, Signals, Status};
 use super::stage::MultiplyAdd;
@@ -25,51 +26,6 @@ use super::tail::{Divider, Division};
 const HEAD_RANKS: usize = 2;
 /// Multiply-add stages of the polynomial.
 const STAGES: usize = 3;
-
-/// The formats of the polynomial's registers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PolynomialFormats {
-    /// The variable, x or u.
-    pub v: QFormat,
-    /// c0, c1, c2, c3.
-    pub coefficients: [QFormat; 4],
-    /// After stage 1.
-    pub t1: QFormat,
-    /// After stage 2.
-    pub t2: QFormat,
-    /// After stage 3, in the output's unit.
-    pub t3: QFormat,
-}
-
-/// The formats of the divider's registers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct TailFormats {
-    /// A.
-    pub a: QFormat,
-    /// B.
-    pub b: QFormat,
-    /// D = A − B·x, and every remainder.
-    pub divisor: QFormat,
-    /// Quotient bits and dividend bits to come.
-    pub digits: QFormat,
-}
-
-/// The formats of every register.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Formats {
-    /// x.
-    pub input: QFormat,
-    /// The intensity.
-    pub output: QFormat,
-    /// The polynomial's, where there is one.
-    pub polynomial: Option<PolynomialFormats>,
-    /// The divider's, where there is one.
-    pub tail: Option<TailFormats>,
-    /// The cut, where there is a polynomial.
-    pub cut: Option<QFormat>,
-    /// e, in the centred form.
-    pub shift: Option<QFormat>,
-}
 
 /// The data path of one configuration: every line with its alignment, and the ROM.
 #[derive(Debug, Clone, PartialEq)]

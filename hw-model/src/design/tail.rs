@@ -5,7 +5,7 @@ use super::{DesignError, Parts, RealRow};
 use crate::budget::tail::{self, StatedTail};
 use crate::budget::{BudgetError, RowTail};
 use crate::config::Config;
-use crate::datapath::ranks::TailFormats;
+use crate::datapath::formats::TailFormats;
 use crate::datapath::stage::{Fractions, MultiplyAdd};
 use crate::datapath::tail::Divider;
 use crate::format::{Overflow, QFormat};
