@@ -17,6 +17,7 @@ pub mod manifest;
 pub mod memory_file;
 pub mod packing;
 pub mod reference;
+pub mod rtl;
 pub mod stimulus;
 pub mod stimulus_file;
 pub mod table;

@@ -70,7 +70,7 @@ pub struct Signals {
     pub address: u32,
     /// x: as given in the first rank, clamped to [0, 1] from the front end on.
     pub x: i64,
-    /// The row at the address; all zero where there is none.
+    /// The row at the address; the first row where there is none.
     pub row: Row,
     /// Flags raised so far.
     pub status: Status,
