@@ -57,6 +57,13 @@ module blysk #(
   logic [blysk_pkg::TAIL_A_WIDTH-1:0] tail_a;
   logic [blysk_pkg::TAIL_B_WIDTH-1:0] tail_b;
 
+  // The status as far as it is known.
+  logic [blysk_pkg::STATUS_WIDTH-1:0] fetch_status;
+  always_comb begin
+    fetch_status                            = '0;
+    fetch_status[blysk_pkg::STATUS_NO_WORD] = no_word;
+  end
+
   always_ff @(posedge clk_i) begin
     if (load[0]) x_q <= x_i;
   end
@@ -77,7 +84,7 @@ module blysk #(
 
   blysk_front_end front_end (
     .clk_i, .load_i(load[1]),
-    .x_i(x_q), .no_word_i(no_word), .cut_i(cut), .shift_i(shift),
+    .x_i(x_q), .status_i(fetch_status), .cut_i(cut), .shift_i(shift),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 

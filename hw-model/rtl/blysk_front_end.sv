@@ -19,7 +19,7 @@ module blysk_front_end (
   input  logic                               clk_i,
   input  logic                               load_i,
   input  logic [blysk_pkg::INPUT_WIDTH-1:0]  x_i,
-  input  logic                               no_word_i,
+  input  logic [blysk_pkg::STATUS_WIDTH-1:0] status_i,
   input  logic [blysk_pkg::CUT_WIDTH-1:0]    cut_i,
   input  logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift_i,
   output logic [blysk_pkg::V_WIDTH-1:0]      v_o,
@@ -46,7 +46,8 @@ module blysk_front_end (
 
   // ---- Which part answers -------------------------------------------------------------------------
   logic [blysk_pkg::REGION_WIDTH-1:0] region_d, region_q;
-  logic                    above_cut;
+  logic                    above_cut, no_word;
+  assign no_word = status_i[blysk_pkg::STATUS_NO_WORD];
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : cut
     assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= blysk_pkg::CUT_COMPARE_WIDTH'(cut_i);
@@ -58,7 +59,7 @@ module blysk_front_end (
 
   always_comb begin
     region_d = blysk_pkg::REGION_ZERO;
-    if (!no_word_i && !facing_away) begin
+    if (!no_word && !facing_away) begin
       if (above_cut)          region_d = blysk_pkg::REGION_POLYNOMIAL;
       else if (blysk_pkg::HAS_TAIL != 0) region_d = blysk_pkg::REGION_TAIL;
     end
@@ -118,8 +119,7 @@ module blysk_front_end (
   logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
 
   always_comb begin
-    status_d                     = '0;
-    status_d[blysk_pkg::STATUS_NO_WORD]     = no_word_i;
+    status_d                                = status_i;
     status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
     status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
   end

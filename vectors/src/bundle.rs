@@ -91,6 +91,12 @@ impl<'a> Bundle<'a> {
         Ok(Self { design, stimulus, strategy, requested, seed, command: command.to_owned() })
     }
 
+    /// The design.
+    #[must_use]
+    pub const fn design(&self) -> &'a Design {
+        self.design
+    }
+
     /// The cases, in the order of the files.
     #[must_use]
     pub fn samples(&self) -> Box<dyn Iterator<Item = Sample> + '_> {

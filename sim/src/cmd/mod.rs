@@ -8,6 +8,7 @@ mod configuration;
 mod presets;
 mod report;
 mod rom;
+mod rtl;
 mod simulate;
 mod table;
 mod vectors;
@@ -32,6 +33,8 @@ enum Command {
     Report(report::Args),
     /// Write test vectors for an RTL simulation.
     Vectors(vectors::Args),
+    /// Write the RTL with its testbench, vectors and a Makefile that runs them.
+    Rtl(rtl::Args),
     /// Run a stimulus through the clocked pipeline; record every register, every cycle.
     Simulate(simulate::Args),
     /// Print the real coefficients of a method.
@@ -95,6 +98,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
     match command {
         Command::Report(args) => report::run(&args, out),
         Command::Vectors(args) => vectors::run(&args, out),
+        Command::Rtl(args) => rtl::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
