@@ -12,6 +12,7 @@
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod faults;
 pub mod kind;
 pub mod manifest;
 pub mod memory_file;
