@@ -24,7 +24,7 @@ mod fault;
 mod list;
 mod rows;
 
-pub use compact::{Compact, OneByOne, Verdict, Workers};
+pub use compact::{Compact, OneByOne, Verdict, Workers, exhaust};
 pub use evaluate::{Faulty, Model};
 pub use fault::{DataRegister, Defect, Fault, FieldFault, HANDSHAKE, Logic, RoundingLine};
 pub use list::{field_faults, pipeline_faults};
