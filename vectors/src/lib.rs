@@ -12,9 +12,12 @@
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod fault_table;
+pub mod faults;
 pub mod kind;
 pub mod manifest;
 pub mod memory_file;
+pub mod negative_control;
 pub mod packing;
 pub mod reference;
 pub mod rtl;
