@@ -33,7 +33,7 @@ icarus: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp $(ARGUMENTS) | $(JUDGE)
 
 verilator: $(BUILD)/verilated/blysk_tb
-	@$(BUILD)/verilated/blysk_tb $(ARGUMENTS) | grep -v '^- .*\$$finish' | $(JUDGE)
+	@$(BUILD)/verilated/blysk_tb $(ARGUMENTS) | grep -v '^- ' | $(JUDGE)
 
 control: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp +expected=negative_control.mem | tee $(BUILD)/log
@@ -43,9 +43,11 @@ $(BUILD)/blysk.vvp: $(RTL) blysk_tb.sv
 	@mkdir -p $(BUILD)
 	$(IVERILOG) -g2012 -Wall -Wno-timescale -s blysk_tb -o $@ $(RTL) blysk_tb.sv
 
+# Some builds of Verilator leave open how their compiler takes a precompiled header.
 $(BUILD)/verilated/blysk_tb: $(RTL) blysk_tb.sv
 	@mkdir -p $(BUILD)
 	$(VERILATOR) --binary --timing -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
+	  -MAKEFLAGS CFG_CXXFLAGS_PCH_I=-include \
 	  --top-module blysk_tb --Mdir $(BUILD)/verilated -o blysk_tb $(RTL) blysk_tb.sv > $(BUILD)/verilator.log \
 	  || { cat $(BUILD)/verilator.log; exit 1; }
 
