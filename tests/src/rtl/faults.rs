@@ -46,7 +46,7 @@ pub const FAULTS: &[Fault] = &[
         ".DROP(blysk_pkg::T3_DROP)" => ".DROP(blysk_pkg::T3_DROP + 1)", "stage3.t3"),
     fault!("cut off by one", "compact", "blysk_front_end.sv",
         "'(x) >= " => "'(x) > ", "front_end."),
-    fault!("no clamp above 1", "compact", "blysk_clamp.sv",
+    fault!("no clamp above 1", "paper", "blysk_clamp.sv",
         "assign above = !below && t3_i > blysk_pkg::T3_WIDTH'(blysk_pkg::OUTPUT_GREATEST);" => "assign above = 1'b0;", "clamp."),
     fault!("x above 1 not clamped", "compact", "blysk_front_end.sv",
         "above_one ? blysk_pkg::X_GREATEST :" => "1'b0 ? blysk_pkg::X_GREATEST :", "front_end.v"),
