@@ -53,7 +53,7 @@ impl Datapath {
 
     /// Evaluates every x with a row that need not be one of the ROM's, only in its formats, and with a
     /// register that may be damaged. What does not fit its register wraps there. The polynomial's answers
-    /// are those before the [`clamp`](super::clamp::clamp), so that its flag can be told as well.
+    /// are those before the [`clamp`](fn@super::clamp::clamp), so that its flag can be told as well.
     pub fn evaluate_row(&self, row: &Row, damage: Option<&Damage>, xs: &[i64], block: &mut Block) {
         block.clear(xs.len());
         if self.narrow {

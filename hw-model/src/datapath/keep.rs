@@ -156,7 +156,7 @@ mod tests {
                 let wanted = format.from_word(value as u64);
                 assert_eq!(Trimmed::<i64>::to(format).keep(value), wanted, "{text} {value}");
                 let wide = Trimmed::<i128>::to(format).keep(value.into());
-                assert_eq!(wide, wanted.into(), "{text} {value}");
+                assert_eq!(wide, i128::from(wanted), "{text} {value}");
             }
         }
     }

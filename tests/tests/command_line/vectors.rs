@@ -42,7 +42,7 @@ fn the_same_command_gives_the_same_bytes() {
                 second.lines().skip(1).collect::<String>()
             );
             let (first, second) = (bench.tree("first"), bench.tree("deep/second"));
-            assert_eq!(first.len(), 5);
+            assert_eq!(first.len(), 6);
             assert!(first == second, "{command}");
             let verified = checked(&bench, "first", &design);
             assert_eq!(verified.manifest.command, format!("blysk {command}"));
@@ -112,7 +112,7 @@ fn files_are_replaced_whole() {
 /// On several threads the set is the one that a single one finds, and the summary says how small it is.
 #[test]
 fn the_fewest_vectors_come_with_their_bound() {
-    let bench = Bench::new();
+    let bench = bench!();
     let summary = bench.good("vectors --config small.json --strategy compact --out fewest");
     let manifest = verify(bench.path("fewest")).unwrap().manifest;
     let faults = manifest.faults.unwrap();
