@@ -10,7 +10,7 @@ use crate::rounding::{Lane, Rounding};
 
 use super::clamp::clamp;
 use super::front_end::{FrontEnd, Region};
-use super::keep::{Keep, Registers};
+use super::keep::{Damage, Keep, Registers};
 use super::ranks::Datapath;
 use super::stage::MultiplyAdd;
 use super::tail::{Divider, Division};
@@ -47,20 +47,20 @@ impl Datapath {
         if self.narrow {
             narrow_block(self, row, xs, block);
         } else {
-            Lines::of(self).evaluate::<i128, _>(row, xs, block, Registers::WHOLE);
+            Lines::of(self).evaluate::<i128, _>(row, xs, block, &Registers::WHOLE);
         }
     }
 
-    /// Evaluates every x with a row that need not be one of the ROM's, only in its formats. What
-    /// does not fit its register wraps there. The polynomial's answers are those before the
-    /// [`clamp`](super::clamp::clamp), so that its flag can be told as well.
-    pub fn evaluate_row(&self, row: &Row, xs: &[i64], block: &mut Block) {
+    /// Evaluates every x with a row that need not be one of the ROM's, only in its formats, and with a
+    /// register that may be damaged. What does not fit its register wraps there. The polynomial's answers
+    /// are those before the [`clamp`](fn@super::clamp::clamp), so that its flag can be told as well.
+    pub fn evaluate_row(&self, row: &Row, damage: Option<&Damage>, xs: &[i64], block: &mut Block) {
         block.clear(xs.len());
         if self.narrow {
-            narrow_row(self, row, xs, block);
+            narrow_row(self, row, damage, xs, block);
         } else {
-            let registers = Registers::trimmed(&self.formats);
-            Lines::of(self).evaluate::<i128, _>(row, xs, block, registers);
+            let registers = Registers::trimmed(&self.formats, damage);
+            Lines::of(self).evaluate::<i128, _>(row, xs, block, &registers);
         }
     }
 }
@@ -69,14 +69,20 @@ impl Datapath {
 /// chosen at run time. Integers give the same bits in all of them.
 #[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
 fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
-    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, Registers::WHOLE);
+    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &Registers::WHOLE);
 }
 
 /// The same with trimmed registers.
 #[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
-fn narrow_row(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
-    let registers = Registers::trimmed(&datapath.formats);
-    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, registers);
+fn narrow_row(
+    datapath: &Datapath,
+    row: &Row,
+    damage: Option<&Damage>,
+    xs: &[i64],
+    block: &mut Block,
+) {
+    let registers = Registers::trimmed(&datapath.formats, damage);
+    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &registers);
 }
 
 /// The lines of a data path, out of their ranks.
@@ -115,7 +121,7 @@ impl Lines {
         row: &Row,
         xs: &[i64],
         block: &mut Block,
-        keep: Registers<K>,
+        keep: &Registers<K>,
     ) {
         match self.rounding() {
             Some(Rounding::Floor) => {
@@ -144,7 +150,7 @@ impl Lines {
         row: &Row,
         xs: &[i64],
         block: &mut Block,
-        keep: Registers<K>,
+        keep: &Registers<K>,
     ) {
         let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
         for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
@@ -159,7 +165,7 @@ impl Lines {
         xs: &[i64],
         intensities: &mut [i64],
         regions: &mut [Region],
-        keep: Registers<K>,
+        keep: &Registers<K>,
     ) {
         let cut = L::from_bits(row.get(FieldName::Cut));
         let mut any_tail = false;
@@ -182,7 +188,7 @@ impl Lines {
         xs: &[i64],
         regions: &[Region],
         intensities: &mut [i64],
-        keep: Registers<K>,
+        keep: &Registers<K>,
     ) {
         let Some([stage1, stage2, stage3]) = &self.stages else {
             return;
@@ -212,7 +218,7 @@ impl Lines {
         xs: &[i64],
         regions: &[Region],
         intensities: &mut [i64],
-        keep: Registers<K>,
+        keep: &Registers<K>,
     ) {
         let Some(divider) = &self.divider else { return };
         let a = L::from_bits(row.get(FieldName::TailA));
@@ -221,12 +227,14 @@ impl Lines {
         let mut divisors = [L::ONE; LANES];
         let mut remainders = [L::ZERO; LANES];
         let mut digits = [L::ZERO; LANES];
+        let (keep_remainder, keep_digits) = keep.behind_stage(0);
         for (lane, (&x, &region)) in xs.iter().zip(regions).enumerate() {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            let begun = divider.begin(self.front_end.tail_x(x, region), a, b);
+            let x = keep.tail_x.keep(self.front_end.tail_x(x, region));
+            let begun = divider.begin(x, a, b);
             divisors[lane] = keep.divisor.keep(begun.divisor);
-            remainders[lane] = keep.divisor.keep(begun.remainder);
-            digits[lane] = begun.digits;
+            remainders[lane] = keep_remainder.keep(begun.remainder);
+            digits[lane] = keep_digits.keep(begun.digits);
         }
         for digit in 0..divider.digit_count {
             for ((&divisor, remainder), digits) in
@@ -237,7 +245,10 @@ impl Lines {
                 (*remainder, *digits) = (next.remainder, next.digits);
             }
             if !K::WHOLE && divider.ends_stage(digit) {
-                remainders = remainders.map(|remainder| keep.divisor.keep(remainder));
+                let stage = 1 + digit / divider.digits_per_stage;
+                let (keep_remainder, keep_digits) = keep.behind_stage(stage as usize);
+                remainders = remainders.map(|remainder| keep_remainder.keep(remainder));
+                digits = digits.map(|digits| keep_digits.keep(digits));
             }
         }
         let one = L::from_bits(self.output_one);

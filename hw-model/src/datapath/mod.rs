@@ -25,5 +25,6 @@ pub mod stage;
 pub mod tail;
 
 pub use block::Block;
+pub use keep::Damage;
 pub use ranks::Datapath;
 pub use signals::{Register, Signals, Status};

@@ -8,7 +8,8 @@
 //!    corners are tried, and those that kill most are added.
 //! 3. What still survives is tried on every input. A fault that survives that is equivalent.
 
-use hw_model::datapath::Signals;
+use std::ops::RangeInclusive;
+
 use hw_model::datapath::front_end::FrontEnd;
 use hw_model::design::Design;
 
@@ -17,6 +18,7 @@ use super::evaluate::{Faulty, Model};
 use super::fault::Fault;
 use super::list::pipeline_faults;
 use super::rows::{Mask, RowFaults};
+use super::screen::Screen;
 use crate::case::{Case, Sample};
 use crate::kind::Kind;
 use crate::stimulus::corners::Corners;
@@ -184,12 +186,8 @@ impl RowCover {
 /// Beyond [0, 1] there are no more sorts: above 1 the front end takes x as 1, and below 0 no row is asked.
 pub fn exhaust(row: &mut RowFaults<'_>, wanted: Mask, front_end: FrontEnd) -> Vec<(i64, Mask)> {
     let mut seen = vec![false; 1 << Mask::BITS];
-    let (mut found, mut xs, mut masks) = (Vec::new(), Vec::new(), Vec::new());
-    let mut next = 0;
-    while next <= front_end.greatest {
-        let last = front_end.greatest.min(next + CHUNK - 1);
-        xs.clear();
-        xs.extend(next..=last);
+    let (mut found, mut masks) = (Vec::new(), Vec::new());
+    for xs in chunks(0..=front_end.greatest) {
         row.killed(&xs, wanted, &mut masks);
         for (&x, &mask) in xs.iter().zip(&masks) {
             if mask != 0 && !seen[usize::from(mask)] {
@@ -197,7 +195,6 @@ pub fn exhaust(row: &mut RowFaults<'_>, wanted: Mask, front_end: FrontEnd) -> Ve
                 found.push((x, mask));
             }
         }
-        next = last + 1;
     }
     found
 }
@@ -229,11 +226,7 @@ impl Hunt<'_> {
     /// Those of `faults` that a case kills.
     fn kills(&self, faults: &[usize], case: Case) -> Vec<usize> {
         let passage = self.design.datapath().passage(case.address, case.x);
-        self.kills_at(faults, &passage)
-    }
-
-    fn kills_at(&self, faults: &[usize], passage: &[Signals]) -> Vec<usize> {
-        faults.iter().copied().filter(|&fault| self.faulty[fault].is_killed(passage)).collect()
+        faults.iter().copied().filter(|&fault| self.faulty[fault].is_killed(&passage)).collect()
     }
 
     /// For each row and each fault that survived, the least x that kills it.
@@ -247,14 +240,21 @@ impl Hunt<'_> {
     }
 
     fn exhaust_row(&self, address: u32, mut survivors: Vec<usize>) -> Vec<Sample> {
-        let mut found = Vec::new();
-        for x in self.every_x(&survivors) {
-            let case = Case::at(self.design.rom(), address, x);
-            let killed = self.kills(&survivors, case);
-            if !killed.is_empty() {
-                survivors.retain(|fault| !killed.contains(fault));
-                found.push(Sample { case, kind: Kind::Target });
-            }
+        let datapath = self.design.datapath();
+        let row = datapath.row(address);
+        let (mut screen, mut found) = (Screen::default(), Vec::new());
+        for xs in chunks(self.every_x(&survivors)) {
+            screen.take(datapath, &row, &xs);
+            survivors.retain(|&fault| {
+                let faulty = &self.faulty[fault];
+                let suspects = screen.suspects(faulty, &row, &xs);
+                let killer = suspects.into_iter().map(|x| Case::at(self.design.rom(), address, x));
+                let killer = killer
+                    .into_iter()
+                    .find(|case| faulty.is_killed(&datapath.passage(case.address, case.x)));
+                found.extend(killer.map(|case| Sample { case, kind: Kind::Target }));
+                killer.is_none()
+            });
             if survivors.is_empty() {
                 break;
             }
@@ -264,7 +264,7 @@ impl Hunt<'_> {
 
     /// Every x of [0, 1]; every x of the format where a fault looks at x as it was given. Behind the
     /// front end an x beyond [0, 1] is another one with a flag, and the corners have those.
-    fn every_x(&self, faults: &[usize]) -> std::ops::RangeInclusive<i64> {
+    fn every_x(&self, faults: &[usize]) -> RangeInclusive<i64> {
         let as_given = |&fault: &usize| matches!(self.faulty[fault].fault(), Fault::Logic(_) if self.faulty[fault].rank() == 1);
         let input = self.design.config().input;
         match faults.iter().any(as_given) {
@@ -272,4 +272,11 @@ impl Hunt<'_> {
             false => 0..=self.design.datapath().front_end().greatest,
         }
     }
+}
+
+/// A range in pieces of at most [`CHUNK`].
+fn chunks(range: RangeInclusive<i64>) -> impl Iterator<Item = Vec<i64>> {
+    let (first, last) = range.into_inner();
+    let starts = (0..=(last - first) / CHUNK).map(move |index| first + index * CHUNK);
+    starts.map(move |start| (start..=last.min(start + (CHUNK - 1))).collect())
 }

@@ -1,25 +1,30 @@
 //! Small sets of x that together kill what they should.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
 use super::rows::Mask;
 
 /// Indices of the fewest masks that together have every bit of `wanted`; each bit must be in some mask.
 ///
-/// Exact: breadth first over the sets of bits that can be had with one mask, with two, and so on. There are
-/// at most 2^16 of them. Of equally small choices the first found is taken, which the order decides.
+/// Exact: breadth first over the sets of bits that can be had with one mask, with two, and so on; there
+/// are at most 2^16. Some mask must bring the rarest bit that a set still lacks, so only those that have it
+/// are added. Of equally small choices the first found is taken, which the order decides.
 #[must_use]
 pub fn fewest(masks: &[Mask], wanted: Mask) -> Vec<usize> {
     let useful = undominated(masks, wanted);
+    let rarest = rarest_first(masks, &useful, wanted);
     // How each set was first reached: the set before it, and the mask that was added.
-    let mut reached: Vec<Option<(Mask, usize)>> = vec![None; 1 << Mask::BITS];
+    let mut reached: HashMap<Mask, (Mask, usize)> = HashMap::new();
     let mut level: Vec<Mask> = vec![0];
-    while reached[usize::from(wanted)].is_none() && wanted != 0 && !level.is_empty() {
+    while !reached.contains_key(&wanted) && wanted != 0 && !level.is_empty() {
         let mut next = Vec::new();
         for &set in &level {
-            for &index in &useful {
+            let Some(lacking) = rarest.iter().find(|&&bit| set & bit == 0) else { continue };
+            for &index in useful.iter().filter(|&&index| masks[index] & lacking != 0) {
                 let union = (set | masks[index]) & wanted;
-                let place = &mut reached[usize::from(union)];
-                if union != set && place.is_none() {
-                    *place = Some((set, index));
+                if let Entry::Vacant(place) = reached.entry(union) {
+                    place.insert((set, index));
                     next.push(union);
                 }
             }
@@ -29,11 +34,19 @@ pub fn fewest(masks: &[Mask], wanted: Mask) -> Vec<usize> {
     chosen(&reached, wanted)
 }
 
-fn chosen(reached: &[Option<(Mask, usize)>], wanted: Mask) -> Vec<usize> {
+/// The bits of `wanted`, those first that the fewest masks have.
+fn rarest_first(masks: &[Mask], useful: &[usize], wanted: Mask) -> Vec<Mask> {
+    let mut bits: Vec<Mask> =
+        (0..Mask::BITS).map(|place| 1 << place).filter(|bit| wanted & bit != 0).collect();
+    bits.sort_by_key(|bit| useful.iter().filter(|&&index| masks[index] & bit != 0).count());
+    bits
+}
+
+fn chosen(reached: &HashMap<Mask, (Mask, usize)>, wanted: Mask) -> Vec<usize> {
     let mut chosen = Vec::new();
     let mut set = wanted;
     while set != 0
-        && let Some((before, index)) = reached[usize::from(set)]
+        && let Some(&(before, index)) = reached.get(&set)
     {
         chosen.push(index);
         set = before;

@@ -86,13 +86,13 @@ impl<'a> Model<'a> {
     }
 
     fn altered(&self, fault: Fault) -> Option<Datapath> {
-        let wide = || self.wide.clone();
         match fault {
-            Fault::Rounding(line, mode) => rounded(wide(), line, mode),
+            // A rounding carry at most beyond the right value: the lane has room for that.
+            Fault::Rounding(line, mode) => rounded(self.datapath.clone(), line, mode),
             Fault::Logic(Logic::NoInputClamp) => {
                 let front_end = *self.datapath.front_end();
                 let greatest = self.datapath.formats().input.max_bits();
-                Some(wide().with_front_end(FrontEnd { greatest, ..front_end }))
+                Some(self.wide.clone().with_front_end(FrontEnd { greatest, ..front_end }))
             }
             _ => None,
         }
@@ -141,6 +141,25 @@ impl Faulty<'_> {
     #[must_use]
     pub const fn rank(&self) -> usize {
         self.rank
+    }
+
+    /// The right hardware.
+    #[must_use]
+    pub const fn datapath(&self) -> &Datapath {
+        self.model.datapath
+    }
+
+    /// The data path with a line exchanged, where the fault is one of a line.
+    #[must_use]
+    pub const fn altered(&self) -> Option<&Datapath> {
+        self.altered.as_ref()
+    }
+
+    /// The format of a register of the faulty rank.
+    #[must_use]
+    pub fn format(&self, register: DataRegister) -> Option<QFormat> {
+        let registers = &self.model.registers[self.rank];
+        registers.iter().find(|(known, _)| *known == register).map(|&(_, format)| format)
     }
 
     /// What the ports show.
@@ -203,14 +222,11 @@ impl Faulty<'_> {
     }
 
     fn damage(&self, register: DataRegister, defect: Defect, held: &mut Signals) {
-        let registers = &self.model.registers[self.rank];
-        let Some((_, format)) = registers.iter().find(|(known, _)| *known == register) else {
-            return;
-        };
+        let Some(format) = self.format(register) else { return };
         let bits = register.of(held);
         *bits = match defect {
             Defect::LowBitStuck => *bits & !1,
-            Defect::Short => narrower(*format).map_or(0, |format| format.from_word(*bits as u64)),
+            Defect::Short => narrower(format).map_or(0, |format| format.from_word(*bits as u64)),
         };
     }
 
@@ -290,7 +306,8 @@ fn wide(signals: &Signals) -> Division<i128> {
     Division { divisor: divisor.into(), remainder: remainder.into(), digits: digits.into() }
 }
 
-fn narrower(format: QFormat) -> Option<QFormat> {
+/// A format of one bit less at the top; none where it has only one.
+pub(super) fn narrower(format: QFormat) -> Option<QFormat> {
     let (integer, fraction) = (format.integer_bits() - 1, format.fraction_bits());
     let narrower = match format.is_signed() {
         true => QFormat::signed(integer, fraction),

@@ -23,9 +23,11 @@ mod evaluate;
 mod fault;
 mod list;
 mod rows;
+mod screen;
 
 pub use compact::{Compact, OneByOne, Verdict, Workers, exhaust};
 pub use evaluate::{Faulty, Model};
 pub use fault::{DataRegister, Defect, Fault, FieldFault, HANDSHAKE, Logic, RoundingLine};
 pub use list::{field_faults, pipeline_faults};
 pub use rows::{Mask, RowFaults};
+pub use screen::Screen;

@@ -1,12 +1,11 @@
 //! Which x kill which fault of a row, many x at a time.
 
-use hw_model::datapath::clamp::clamp;
-use hw_model::datapath::front_end::Region;
 use hw_model::datapath::{Block, Datapath};
 use hw_model::rom::{FieldName, Row};
 
 use super::fault::FieldFault;
 use super::list::field_faults;
+use super::screen::compare;
 
 /// A set of a row's faults: bit k is the k-th of [`RowFaults::faults`].
 pub type Mask = u16;
@@ -50,6 +49,13 @@ impl<'a> RowFaults<'a> {
         ((1_u32 << self.faults.len()) - 1) as Mask
     }
 
+    /// The set of those of one field.
+    #[must_use]
+    pub fn of_field(&self, field: FieldName) -> Mask {
+        let bits = self.faults.iter().enumerate().filter(|(_, fault)| fault.field == field);
+        bits.fold(0, |set, (bit, _)| set | 1 << bit)
+    }
+
     /// For each x, the faults of `wanted` that it kills. Chunks of neighbouring x are fast: a part
     /// of the pipeline that none of them reaches is not evaluated.
     pub fn killed(&mut self, xs: &[i64], wanted: Mask, masks: &mut Vec<Mask>) {
@@ -62,28 +68,11 @@ impl<'a> RowFaults<'a> {
         if met.is_empty() {
             return;
         }
-        self.datapath.evaluate_row(&self.golden, xs, &mut self.right);
+        self.datapath.evaluate_row(&self.golden, None, xs, &mut self.right);
         for fault in met {
-            self.datapath.evaluate_row(&self.rows[fault], xs, &mut self.wrong);
-            self.compare(fault, masks);
-        }
-    }
-
-    fn compare(&self, fault: usize, masks: &mut [Mask]) {
-        let one = self.datapath.output_one();
-        let answers = |block: &Block, index: usize| {
-            let (answer, region) = (block.intensities[index], block.regions[index]);
-            // Only the polynomial is clamped with a flag.
-            match region {
-                Region::Polynomial => (clamp(answer, one), clamp(answer, one) != answer),
-                _ => (answer, false),
-            }
-        };
-        let both = self.right.intensities.iter().zip(&self.wrong.intensities);
-        for (index, (mask, (right, wrong))) in masks.iter_mut().zip(both).enumerate() {
-            if right != wrong && answers(&self.right, index) != answers(&self.wrong, index) {
-                *mask |= 1 << fault;
-            }
+            self.datapath.evaluate_row(&self.rows[fault], None, xs, &mut self.wrong);
+            let one = self.datapath.output_one();
+            compare(&self.right, &self.wrong, one, |index| masks[index] |= 1 << fault);
         }
     }
 

@@ -93,7 +93,8 @@ impl Row {
             xs.extend(candidates);
             masks.extend(killed);
         }
-        let survivors = row.all() & !union(&masks);
+        // A wrong cut shows at the cut or just below it, and both are among the candidates.
+        let survivors = row.all() & !union(&masks) & !row.of_field(FieldName::Cut);
         let front_end = datapath.front_end();
         if survivors != 0 && front_end.greatest < *allowance {
             *allowance -= front_end.greatest;
