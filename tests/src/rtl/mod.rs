@@ -1,5 +1,6 @@
 //! The RTL in real simulators.
 
+pub mod exhaustive;
 pub mod faults;
 pub mod simulators;
 pub mod workspace;
