@@ -126,6 +126,12 @@ impl<'a> Bundle<'a> {
         self.design
     }
 
+    /// What the search of [`Strategy::Compact`] found; none with the other strategies.
+    #[must_use]
+    pub const fn compact(&self) -> Option<&Compact> {
+        self.stimulus.compact()
+    }
+
     /// The cases, in the order of the files.
     #[must_use]
     pub fn samples(&self) -> Box<dyn Iterator<Item = Sample> + '_> {

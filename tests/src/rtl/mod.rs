@@ -2,6 +2,7 @@
 
 pub mod exhaustive;
 pub mod faults;
+pub mod mutants;
 pub mod simulators;
 pub mod workspace;
 
