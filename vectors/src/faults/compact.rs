@@ -8,6 +8,7 @@
 //!    corners are tried, and those that kill most are added.
 //! 3. What still survives is tried on every input. A fault that survives that is equivalent.
 
+use std::mem::replace;
 use std::ops::RangeInclusive;
 
 use hw_model::datapath::front_end::FrontEnd;
@@ -171,7 +172,8 @@ struct RowCover {
 impl RowCover {
     fn search(design: &Design, address: u32) -> Self {
         let mut row = RowFaults::new(design.datapath(), address);
-        let found = exhaust(&mut row, Mask::MAX, *design.datapath().front_end());
+        let front_end = *design.datapath().front_end();
+        let found: Vec<(i64, Mask)> = exhaust(&mut row, Mask::MAX, front_end).collect();
         let masks: Vec<Mask> = found.iter().map(|(_, mask)| *mask).collect();
         let all = masks.iter().fold(0, |set, mask| set | mask);
         let mut chosen: Vec<(i64, Mask)> =
@@ -184,19 +186,19 @@ impl RowCover {
 
 /// Every sort of x in a row, told apart by what it kills of `wanted`: the least x of each sort, increasing.
 /// Beyond [0, 1] there are no more sorts: above 1 the front end takes x as 1, and below 0 no row is asked.
-pub fn exhaust(row: &mut RowFaults<'_>, wanted: Mask, front_end: FrontEnd) -> Vec<(i64, Mask)> {
-    let mut seen = vec![false; 1 << Mask::BITS];
-    let (mut found, mut masks) = (Vec::new(), Vec::new());
-    for xs in chunks(0..=front_end.greatest) {
+pub fn exhaust(
+    row: &mut RowFaults<'_>,
+    wanted: Mask,
+    front_end: FrontEnd,
+) -> impl Iterator<Item = (i64, Mask)> {
+    let (mut seen, mut masks) = (vec![false; 1 << Mask::BITS], Vec::new());
+    seen[0] = true;
+    chunks(0..=front_end.greatest).flat_map(move |xs| {
         row.killed(&xs, wanted, &mut masks);
-        for (&x, &mask) in xs.iter().zip(&masks) {
-            if mask != 0 && !seen[usize::from(mask)] {
-                seen[usize::from(mask)] = true;
-                found.push((x, mask));
-            }
-        }
-    }
-    found
+        let sorts = xs.into_iter().zip(masks.iter().copied());
+        let is_new = |&(_, mask): &(i64, Mask)| !replace(&mut seen[usize::from(mask)], true);
+        sorts.filter(is_new).collect::<Vec<_>>()
+    })
 }
 
 /// The hunt for the faults of the pipeline.

@@ -98,9 +98,14 @@ impl Row {
         let front_end = datapath.front_end();
         if survivors != 0 && front_end.greatest < *allowance {
             *allowance -= front_end.greatest;
+            let mut left = survivors;
             for (x, mask) in exhaust(&mut row, survivors, *front_end) {
                 xs.push(x);
                 masks.push(mask);
+                left &= !mask;
+                if left == 0 {
+                    break;
+                }
             }
         }
         let mut chosen = fewest(&masks, union(&masks));
