@@ -5,3 +5,4 @@ pub mod comparison;
 pub mod configurations;
 pub mod naive;
 pub mod reference;
+pub mod waves;
