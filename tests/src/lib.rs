@@ -1,5 +1,6 @@
 //! Shared helpers of the integration tests.
 
+pub mod answers;
 pub mod cli;
 pub mod comparison;
 pub mod configurations;

@@ -4,7 +4,7 @@
 //! rising edge, so what cycle k shows stands from 10·k − 5 to 10·k + 5 ns, its last instant being the edge at
 //! which [`Cycle`] is taken. A register that was never loaded is `x`.
 //!
-//! Here is what the waves show; how a file says it is the business of one [`Sink`] for each format.
+//! Here is what the waves show; how a file says it is the business of one `Sink` for each format.
 
 mod fst;
 mod vcd;
