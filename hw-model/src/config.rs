@@ -40,7 +40,8 @@ pub enum Cut {
     /// At q, where the highlight has fallen to Q.
     Epicentre,
     /// At the polynomial's minimum below q, so that a zero tail makes the least jump and the
-    /// polynomial never rises again; at 0 where it has none.
+    /// polynomial never rises again (at 0 where it has none); or above it, where the polynomial has
+    /// fallen to half an output ulp, which a zero shows as well; or where u would reach 2.
     Minimum,
 }
 
@@ -125,6 +126,10 @@ pub struct Config {
     /// Quotient bits the divider finds in one clock cycle, 1 to 8.
     #[serde(default = "default_quotient_bits")]
     pub quotient_bits_per_stage: u32,
+    /// The widest operand a multiplier of the polynomial may have, 8 to 63 bits: 18 for a block that
+    /// multiplies 18 by 18. Without it the error budget alone decides.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub multiplier_operand_bits: Option<u32>,
     /// What coefficients and data path together may add to the error, in output ulp.
     #[serde(default = "default_budget")]
     pub error_budget_ulp: f64,
@@ -219,6 +224,9 @@ impl Config {
         self.check_formats()?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
+        }
+        if self.multiplier_operand_bits.is_some_and(|bits| !(8..=MAX_WIDTH).contains(&bits)) {
+            return wrong("multiplier_operand_bits", "use 8 to 63, or leave it out");
         }
         if !(self.error_budget_ulp > 0.0 && self.error_budget_ulp <= 1e6) {
             return wrong("error_budget_ulp", "use a number above 0 (1.0 is usual), at most 1e6");

@@ -16,3 +16,4 @@ pub mod presets;
 pub mod quantise;
 pub mod rom;
 pub mod rounding;
+pub mod rtl;

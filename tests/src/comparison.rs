@@ -244,15 +244,46 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
     let Some(cubic) = &real.polynomial else {
         return Ok(());
     };
+    let greatest_u = 2.0 - 1.0 / 128.0;
     let s = match config.cut {
         Cut::Epicentre => real.epicentre,
-        Cut::Minimum => cubic.centred.first_minimum().unwrap_or(1.0).clamp(real.epicentre, 1.0),
+        Cut::Minimum => cubic
+            .centred
+            .first_minimum()
+            .unwrap_or(1.0)
+            .min(greatest_u / f64::from(real.shift).exp2())
+            .clamp(real.epicentre, 1.0),
     };
+    if config.cut == Cut::Minimum && cubic.centred.value_at_s(s) < config.output.ulp() / 2.0 {
+        return cut_at_nothing(design, real, got);
+    }
     // The least integer that is not below (1 − s)·2^fraction: minus the floor of minus it.
     let below = Exact::of_f64(s) - Exact::of_bits(1, 0);
     let wanted = -below.into_register(config.input.fraction_bits(), Rounding::Floor);
     if wanted != BigInt::from(got) {
         let text = format!("n = {}: the cut is {got}, not {wanted}", real.exponent);
+        return complain(Kind::Rom, text);
+    }
+    Ok(())
+}
+
+/// A polynomial that falls to half an output ulp is cut there: at the cut it is that much or more, at
+/// the next x below it is not. (The slope times a few f64 ulp is what the arithmetic here may be off.)
+fn cut_at_nothing(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
+    let config = design.config();
+    let half = config.output.ulp() / 2.0;
+    let value = |x: i64| {
+        let s = 1.0 - x as f64 * config.input.ulp();
+        let off = 1e-14 * size(real, s, true);
+        (real.polynomial.map_or(0.0, |cubic| cubic.centred.value_at_s(s)), off)
+    };
+    let ((at, slack), (below, _)) = (value(got), value(got - 1));
+    if at < half - slack || below > half + slack {
+        let text = format!(
+            "n = {}: the cut {got} is not where the polynomial has fallen to {half}: {at} there, \
+             {below} below it",
+            real.exponent
+        );
         return complain(Kind::Rom, text);
     }
     Ok(())

@@ -6,4 +6,5 @@ pub mod comparison;
 pub mod configurations;
 pub mod naive;
 pub mod reference;
+pub mod rtl;
 pub mod waves;

@@ -9,7 +9,7 @@
 //!
 //! - a part that does not answer is fed a harmless x: the polynomial u = 0, or in the power form the
 //!   greatest x the input format has in [0, 1]; the divider 0;
-//! - a missing ROM word reads as zeros, also in fields that are constants of the hardware;
+//! - an address without a ROM word reads the first row, and the region makes its intensity 0;
 //! - the clamp of an output format that does not reach 1 is its greatest value;
 //! - D is rounded once to its own format, and the quotient x/D once more to the output.
 
@@ -214,7 +214,7 @@ impl<'a> Naive<'a> {
         let greatest = greatest_in_unit_interval(self.formats.input);
         let clamped = BigInt::from(x).clamp(BigInt::ZERO, greatest.clone());
         let region = self.region(row, x);
-        let row = row.copied().unwrap_or_default();
+        let row = row.or(self.rows.first()).copied().unwrap_or_default();
 
         // u = 0 is x = 1, which the input format need not reach.
         let harmless = match self.config.form {

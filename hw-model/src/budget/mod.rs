@@ -122,6 +122,19 @@ pub enum BudgetError {
         /// The worst row.
         exponent: f64,
     },
+    /// An operand is wider than the configuration's multipliers.
+    #[error(
+        "register {register} has {format}, {} bits, more than multiplier_operand_bits = {most}; raise it, or state a narrower format in widths.{register}",
+        format.width()
+    )]
+    OperandTooWide {
+        /// The register.
+        register: &'static str,
+        /// Its format.
+        format: QFormat,
+        /// The widest operand allowed.
+        most: u32,
+    },
     /// A line is wider than the 127 bits of the widest lane.
     #[error("the line of {line} needs {bits} bits, more than 127; use fewer fraction bits")]
     LineTooWide {

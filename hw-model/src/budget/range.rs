@@ -73,6 +73,7 @@ pub struct Carried {
 ///
 /// A partial result is a polynomial of lower degree in v; its extremes over the region are widened by
 /// the rounding errors that reach it, and by a relative 2^−40 for the arithmetic of this analysis.
+/// Its own rounding comes last and never takes a sum that is not negative below 0, whatever the mode.
 #[must_use]
 pub fn ranges(rows: &[RowPolynomial], subtract: bool, carried: &Carried) -> [Range; 4] {
     let mut ranges = [Range::zero(); 4];
@@ -80,16 +81,19 @@ pub fn ranges(rows: &[RowPolynomial], subtract: bool, carried: &Carried) -> [Ran
         let region = ((row.v.0 - carried.v).max(0.0), row.v.1 + carried.v);
         let v = region.1;
         let [r1, r2, r3] = carried.lines;
-        let reach = [r1, r1 * v + r2, (r1 * v + r2) * v + r3];
+        // The rounding error that reaches the sum of a stage, and that of its own result.
+        let reach = [(0.0, r1), (r1 * v, r2), ((r1 * v + r2) * v, r3)];
         // What stage k has summed: the terms from its own addend up.
         let terms = &row.coefficients;
         let partial = [&terms[2..], &terms[1..], &terms[..]].map(|terms| horner(terms, subtract));
         ranges[0] = ranges[0].with(region, row.exponent);
-        for ((range, polynomial), reach) in ranges[1..].iter_mut().zip(partial).zip(reach) {
+        for ((range, polynomial), (reach, own)) in ranges[1..].iter_mut().zip(partial).zip(reach) {
             let (low, high) = extremes(&polynomial, region);
             let scale: f64 = polynomial.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
             let slack = reach + scale * (-40_f64).exp2();
-            *range = range.with((low - slack, high + slack), row.exponent);
+            let floor = if low >= slack { 0.0 } else { f64::NEG_INFINITY };
+            let low = (low - slack - own).max(floor);
+            *range = range.with((low, high + slack + own), row.exponent);
         }
     }
     ranges

@@ -1,7 +1,7 @@
 //! The fraction bits: generous at first, then taken away where a bit saves most for its error.
 
 use super::error::{FractionBits, Register, Sensitivity, Surroundings, horner};
-use super::polynomial::magnitude;
+use super::polynomial::{extremes, magnitude};
 use super::{Bound, BudgetError, RowPolynomial};
 use crate::format::MAX_WIDTH;
 
@@ -22,6 +22,8 @@ pub struct Search<'a> {
     pub surroundings: Surroundings,
     /// Fraction bits that are stated, by register.
     pub pinned: [Option<u32>; Register::ALL.len()],
+    /// The widest operand of a multiplier, where the configuration states one.
+    pub operand_bits: Option<u32>,
     /// Output ulp.
     pub budget: f64,
 }
@@ -64,7 +66,8 @@ impl Search<'_> {
         let mut bits = [0; Register::ALL.len()];
         for (index, register) in Register::ALL.into_iter().enumerate() {
             // Two bits of the width stay free for a sign and a rounding carry.
-            let room = (MAX_WIDTH as i32 - 2 - integer[index].max(0)).max(0) as u32;
+            let widest = MAX_WIDTH as i32 - 2 - integer[index].max(0);
+            let room = widest.min(self.operand_room(register, integer[index])).max(0) as u32;
             let generous = match register {
                 Register::V => self.surroundings.input,
                 _ => self.surroundings.output + GENEROUS,
@@ -72,6 +75,35 @@ impl Search<'_> {
             bits[index] = self.pinned[index].unwrap_or(generous.min(room));
         }
         bits
+    }
+
+    /// Fraction bits that the width of a multiplier leaves to a register with these integer bits.
+    fn operand_room(&self, register: Register, integer: i32) -> i32 {
+        let multiplied =
+            matches!(register, Register::V | Register::C3 | Register::T1 | Register::T2);
+        match self.operand_bits {
+            Some(bits) if multiplied => {
+                bits as i32 - integer - i32::from(self.falls_below_zero(register))
+            }
+            _ => i32::MAX,
+        }
+    }
+
+    /// True where the register takes a sign.
+    fn falls_below_zero(&self, register: Register) -> bool {
+        self.sensitivities.iter().any(|sensitivity| {
+            let row = sensitivity.row();
+            let [_, c1, c2, c3] = row.coefficients;
+            let least =
+                |terms: &[f64]| extremes(&horner(terms, self.surroundings.centred), row.v).0;
+            let low = match register {
+                Register::C3 => c3,
+                Register::T1 => least(&[c2, c3]),
+                Register::T2 => least(&[c1, c2, c3]),
+                _ => 0.0,
+            };
+            low < 0.0
+        })
     }
 
     /// Integer bits (signs aside) of every register, to weigh the cost of its fraction bits.

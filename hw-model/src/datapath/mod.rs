@@ -13,10 +13,12 @@
 //! because the width analysis ([`crate::budget`]) sized every line.
 #![deny(clippy::float_arithmetic)]
 
+mod altered;
 mod block;
 pub mod clamp;
 pub mod formats;
 pub mod front_end;
+mod keep;
 pub mod ranks;
 pub mod signals;
 pub mod stage;

@@ -108,12 +108,11 @@ impl Datapath {
     #[inline]
     #[must_use]
     pub fn fetch(&self, address: u32, x: i64) -> Signals {
-        let row = self.rom.row(address);
         Signals {
             address,
             x,
-            row: row.copied().unwrap_or_default(),
-            status: Status::default().with(Status::NO_WORD, row.is_none()),
+            row: self.row(address),
+            status: Status::default().with(Status::NO_WORD, self.rom.row(address).is_none()),
             ..Signals::default()
         }
     }
@@ -260,8 +259,6 @@ impl Datapath {
 
     fn input_registers(&self, rank: usize, list: &mut List) {
         if rank == 0 {
-            let address = QFormat::field(self.rom.address_width());
-            list.add("address", address, true, |s| s.address.into());
             list.add("x", self.formats.input, true, |s| s.x);
             self.field(list, FieldName::Cut, true, |s| s.row.get(FieldName::Cut));
             self.field(list, FieldName::Shift, true, |s| s.row.get(FieldName::Shift));
@@ -307,14 +304,18 @@ impl Datapath {
         if rank >= HEAD_RANKS {
             let steps = self.divider.map_or(0, |divider| divider.digit_stages() as usize);
             let working = rank <= HEAD_RANKS + steps;
-            list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| s.division.divisor);
+            // After the last quotient bits nobody asks for the divisor.
+            if rank < HEAD_RANKS + steps {
+                list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| s.division.divisor);
+            }
             list.add("remainder", formats.divisor, working, |s| s.division.remainder);
             list.add("digits", formats.digits, working, |s| s.division.digits);
         }
     }
 
     /// The divider's x is clamped to [0, 1], so a sign bit of the input is not carried.
-    fn tail_x_format(&self) -> QFormat {
+    #[must_use]
+    pub fn tail_x_format(&self) -> QFormat {
         let fraction = self.formats.input.fraction_bits();
         QFormat::for_range(0, self.front_end.greatest.into(), fraction)
             .unwrap_or(self.formats.input)
@@ -328,10 +329,11 @@ impl Datapath {
         }
     }
 
-    /// The row at an address, or the all-zero row that a missing word reads as.
+    /// The row at an address. An address without a word reads the first row: its values are in every
+    /// proved range, and a memory needs no gates behind its outputs. The region makes the intensity 0.
     #[must_use]
     pub fn row(&self, address: u32) -> Row {
-        self.rom.row(address).copied().unwrap_or_default()
+        self.rom.row(address).or_else(|| self.rom.row(0)).copied().unwrap_or_default()
     }
 }
 

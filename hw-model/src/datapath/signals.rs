@@ -49,6 +49,12 @@ impl Status {
     pub const fn with(self, other: Self, condition: bool) -> Self {
         Self(self.0 | if condition { other.0 } else { 0 })
     }
+
+    /// These flags without those of `other`.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
 }
 
 impl fmt::Display for Status {
@@ -70,7 +76,7 @@ pub struct Signals {
     pub address: u32,
     /// x: as given in the first rank, clamped to [0, 1] from the front end on.
     pub x: i64,
-    /// The row at the address; all zero where there is none.
+    /// The row at the address; the first row where there is none.
     pub row: Row,
     /// Flags raised so far.
     pub status: Status,

@@ -63,6 +63,24 @@ impl MultiplyAdd {
         self.drop
     }
 
+    /// Places the product is moved up to meet the addend.
+    #[must_use]
+    pub const fn product_up(&self) -> u32 {
+        self.product_up
+    }
+
+    /// Places the addend is moved up to meet the product.
+    #[must_use]
+    pub const fn addend_up(&self) -> u32 {
+        self.addend_up
+    }
+
+    /// Places the sum is moved up where the result has more fraction bits.
+    #[must_use]
+    pub const fn result_up(&self) -> u32 {
+        self.result_up
+    }
+
     /// How the sum is rounded.
     #[must_use]
     pub const fn rounding(&self) -> Rounding {

@@ -1,10 +1,10 @@
 //! Widths, ROM fields and lines of the polynomial.
 
 use super::{DesignError, Parts, RealRow};
-use crate::budget::RowPolynomial;
 use crate::budget::error::{FractionBits, Register, Sensitivity, Surroundings};
 use crate::budget::range::{Carried, Range, ranges};
 use crate::budget::search::Search;
+use crate::budget::{BudgetError, RowPolynomial};
 use crate::config::{Config, Form};
 use crate::datapath::formats::PolynomialFormats;
 use crate::datapath::front_end::Variable;
@@ -43,6 +43,7 @@ pub(super) fn derive(
         sensitivities: &sensitivities,
         surroundings,
         pinned: Register::ALL.map(|register| stated(config, register).map(QFormat::fraction_bits)),
+        operand_bits: config.multiplier_operand_bits,
         budget: config.error_budget_ulp,
     };
     let bits = search.run()?;
@@ -52,6 +53,7 @@ pub(super) fn derive(
     }
     let (coefficients, rom_rows) = quantise_rows(config, &real_rows, &bits, parts)?;
     let formats = line_formats(config, &rom_rows, coefficients, &bits)?;
+    check_operands(config, &formats)?;
     front_end_fields(config, rows, parts)?;
     parts.formats.polynomial = Some(formats);
     Ok(Some(lines(config, &formats, parts)))
@@ -166,6 +168,18 @@ fn line_formats(
         t2: t2.format("t2", lines[1], config.widths.t2)?,
         t3: t3.format("t3", lines[2], None)?,
     })
+}
+
+/// Refuses an operand that the configuration's multipliers do not take.
+fn check_operands(config: &Config, formats: &PolynomialFormats) -> Result<(), BudgetError> {
+    let Some(most) = config.multiplier_operand_bits else { return Ok(()) };
+    let v = if config.form == Form::Centred { "u" } else { "x" };
+    let operands =
+        [(v, formats.v), ("c3", formats.coefficients[3]), ("t1", formats.t1), ("t2", formats.t2)];
+    match operands.into_iter().find(|(_, format)| format.width() > most) {
+        Some((register, format)) => Err(BudgetError::OperandTooWide { register, format, most }),
+        None => Ok(()),
+    }
 }
 
 /// The cut of every row, and the shift in the centred form.

@@ -39,13 +39,16 @@ impl RealRow {
             Curve::Composite { epicentre, tail } => (Some(epicentre), Some(tail)),
         };
         let epicentre = own.epicentre.s;
-        let cut_s = match (config.cut, &polynomial) {
-            (Cut::Minimum, Some(cubic)) => lowest_s(cubic, epicentre),
-            _ => epicentre,
-        };
         let shift = match config.form {
             Form::Centred if polynomial.is_some() => floor_log2(exponent),
             _ => 0,
+        };
+        let cut_s = match (config.cut, &polynomial) {
+            (Cut::Minimum, Some(cubic)) => {
+                let lowest = lowest_s(cubic, epicentre, config.output.ulp() / 2.0);
+                lowest.min(GREATEST_U * (-f64::from(shift)).exp2()).max(epicentre)
+            }
+            _ => epicentre,
         };
         let cut = cut_bits(config, cut_s);
         Ok(Self { exponent, epicentre, polynomial, tail, cut, shift })
@@ -70,9 +73,31 @@ impl RealRow {
     }
 }
 
-/// s of the polynomial's minimum, between the epicentre's end and 1; 1 where it falls all the way.
-fn lowest_s(cubic: &Cubic, epicentre: f64) -> f64 {
-    cubic.centred.first_minimum().unwrap_or(1.0).clamp(epicentre, 1.0)
+/// u = s·2^e stays below 2 with room for its rounding, so that it has one integer bit. On the
+/// epicentre it is below 1.36 anyway; further down only `hermite` at n = 4 would go beyond (2.75).
+const GREATEST_U: f64 = 2.0 - 1.0 / 128.0;
+
+/// Where the polynomial is of no more use below the epicentre: s of its minimum (1 where it falls all
+/// the way), or the s before it at which the polynomial has fallen to `nothing`.
+///
+/// With half an output ulp for `nothing`, what lies beyond is as well shown by 0.
+fn lowest_s(cubic: &Cubic, epicentre: f64, nothing: f64) -> f64 {
+    let minimum = cubic.centred.first_minimum().unwrap_or(1.0).clamp(epicentre, 1.0);
+    if cubic.centred.value_at_s(minimum) >= nothing {
+        return minimum;
+    }
+    // It falls from Q at the epicentre's end to the minimum, so it takes the value once in between.
+    // 64 halvings reach neighbouring floats.
+    let (mut above, mut below) = (epicentre, minimum);
+    for _ in 0..64 {
+        let middle = 0.5 * (above + below);
+        if cubic.centred.value_at_s(middle) > nothing {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    above
 }
 
 /// The least x in the input's unit with x ≥ 1 − s: 1 − ⌊s⌋ in that unit. s ≤ 1, so it is not negative.

@@ -21,7 +21,7 @@ pub struct RomRow {
 }
 
 impl Design {
-    /// The functions of the ROM row at `address`; zero where there is none.
+    /// The functions of the ROM row at `address`; of the first row where there is none.
     #[must_use]
     pub fn rom_row(&self, address: u32) -> RomRow {
         let row = self.datapath.row(address);

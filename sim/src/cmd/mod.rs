@@ -9,6 +9,7 @@ mod configuration;
 mod presets;
 mod report;
 mod rom;
+mod rtl;
 mod simulate;
 mod table;
 mod vectors;
@@ -32,6 +33,7 @@ struct Cli {
 enum Command {
     Report(report::Args),
     Vectors(vectors::Args),
+    Rtl(rtl::Args),
     Check(check::Args),
     Simulate(simulate::Args),
     Coefficients(coefficients::Args),
@@ -95,6 +97,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
     match command {
         Command::Report(args) => report::run(&args, out),
         Command::Vectors(args) => vectors::run(&args, out),
+        Command::Rtl(args) => rtl::run(&args, out),
         Command::Check(args) => check::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),

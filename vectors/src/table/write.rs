@@ -94,7 +94,7 @@ impl<'a, W: Write> TableWriter<'a, W> {
 fn register_columns(datapath: &Datapath) -> Vec<(usize, Register)> {
     let last = datapath.rank_count() - 1;
     let is_port = |rank, name| match name {
-        "address" | "x" => rank == 0,
+        "x" => rank == 0,
         "intensity" | "status" => rank == last,
         _ => false,
     };

@@ -1,0 +1,97 @@
+// The last rank: the answer of the part that has it, clamped to [0, 1], and the status.
+// Twin of src/datapath/clamp.rs and of Divider::finish in src/datapath/tail.rs.
+//
+// t3 has the output's fraction bits already, with integer bits (and a sign) for every value the
+// polynomial can take. A cubic may dip below zero above its cut, or round to one ulp above 1; both are
+// clamped, and said so in the status.
+//
+// The quotient has one fraction bit more than the output; the last remainder, zero or not, stands for
+// all further bits (sticky), so that every rounding mode is exact: round((2*quotient + sticky) / 4).
+`default_nettype none
+
+module blysk_clamp (
+  input  logic                                clk_i,
+  input  logic                                load_i,
+  input  logic [blysk_pkg::REGION_WIDTH-1:0]  region_i,
+  input  logic [blysk_pkg::STATUS_WIDTH-1:0]  status_i,
+  input  logic [blysk_pkg::T3_WIDTH-1:0]      t3_i,
+  input  logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_i,
+  input  logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_i,
+  output logic [blysk_pkg::OUTPUT_WIDTH-1:0]  intensity_o,
+  output logic [blysk_pkg::STATUS_WIDTH-1:0]  status_o
+);
+
+  // ---- The polynomial -----------------------------------------------------------------------------
+  logic [blysk_pkg::OUTPUT_WIDTH-1:0] polynomial;
+  logic                    clamped;
+
+  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : clamp
+    logic below, above;
+    if (blysk_pkg::T3_SIGNED != 0) begin : signed_t3
+      assign below = t3_i[blysk_pkg::T3_WIDTH-1];
+    end else begin : unsigned_t3
+      assign below = 1'b0;
+    end
+    if (blysk_pkg::T3_EXCEEDS_ONE != 0) begin : wide_t3
+      assign above = !below && t3_i > blysk_pkg::T3_WIDTH'(blysk_pkg::OUTPUT_GREATEST);
+    end else begin : narrow_t3
+      assign above = 1'b0;
+    end
+    assign polynomial = below ? '0 : above ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(t3_i);
+    assign clamped    = region_i == blysk_pkg::REGION_POLYNOMIAL && (below || above);
+  end else begin : no_clamp
+    assign polynomial = '0;
+    assign clamped    = 1'b0;
+    logic unused;
+    assign unused = &{1'b0, t3_i};
+  end
+
+  // ---- The quotient -------------------------------------------------------------------------------
+  logic [blysk_pkg::OUTPUT_WIDTH-1:0] quotient;
+
+  if (blysk_pkg::HAS_TAIL != 0) begin : finish
+    localparam int GUARD_BITS = 2;
+    // A sign, a carry, the quotient, the sticky bit; DIGITS_WIDTH bits are left after the rounding.
+    localparam int WIDE = blysk_pkg::DIGITS_WIDTH + 3;
+    logic signed [WIDE-1:0]  wide;
+    logic [blysk_pkg::DIGITS_WIDTH-1:0] rounded;
+    assign wide = {2'b00, digits_i, |remainder_i};
+    blysk_round_shift #(
+      .IN_WIDTH(WIDE), .DROP(GUARD_BITS), .OUT_WIDTH(blysk_pkg::DIGITS_WIDTH), .MODE(blysk_pkg::ROUNDING)
+    ) round_quotient (
+      .value_i(wide), .rounded_o(rounded)
+    );
+    assign quotient = rounded > blysk_pkg::DIGITS_WIDTH'(blysk_pkg::OUTPUT_GREATEST)
+        ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(rounded);
+  end else begin : no_finish
+    assign quotient = '0;
+    logic unused;
+    assign unused = &{1'b0, remainder_i, digits_i};
+  end
+
+  // ---- The answer ---------------------------------------------------------------------------------
+  logic [blysk_pkg::OUTPUT_WIDTH-1:0] intensity_d, intensity_q;
+  logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
+
+  always_comb begin
+    case (region_i)
+      blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;
+      blysk_pkg::REGION_TAIL:       intensity_d = quotient;
+      default:           intensity_d = '0;
+    endcase
+    status_d                 = status_i;
+    status_d[blysk_pkg::STATUS_CLAMPED] = clamped;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (load_i) begin
+      intensity_q <= intensity_d;
+      status_q    <= status_d;
+    end
+  end
+  assign intensity_o = intensity_q;
+  assign status_o    = status_q;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,134 @@
+// The front end: which part answers, and the variable the polynomial is evaluated in.
+// Twin of src/datapath/front_end.rs.
+//
+// x clamps to [0, 1]. Against the row's cut it falls into a region:
+//
+//   polynomial  x >= cut                                      the three stages answer
+//   tail        0 <= x < cut, configuration keeps a divider   the divider answers
+//   zero        0 <= x < cut without one; x < 0; no ROM word  the intensity is 0
+//
+// A part that does not answer is fed a harmless x, for which the ranges of its registers are proved
+// too: the polynomial u = 0, or the greatest x in the power form; the divider x = 0.
+//
+// Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x needs INPUT_FRACTION + 1. u = s * 2^e is
+// less than 2^V_WIDTH in its own unit for every row's cut, so U_WIDTH = V_WIDTH + U_DROP and a carry
+// bit and a sign hold it before its rounding.
+`default_nettype none
+
+module blysk_front_end (
+  input  logic                               clk_i,
+  input  logic                               load_i,
+  input  logic [blysk_pkg::INPUT_WIDTH-1:0]  x_i,
+  input  logic [blysk_pkg::STATUS_WIDTH-1:0] status_i,
+  input  logic [blysk_pkg::CUT_WIDTH-1:0]    cut_i,
+  input  logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift_i,
+  output logic [blysk_pkg::V_WIDTH-1:0]      v_o,
+  output logic [blysk_pkg::X_WIDTH-1:0]      tail_x_o,
+  output logic [blysk_pkg::REGION_WIDTH-1:0] region_o,
+  output logic [blysk_pkg::STATUS_WIDTH-1:0] status_o
+);
+
+  // ---- Clamp x to [0, 1] --------------------------------------------------------------------------
+  logic               facing_away, above_one;
+  logic [blysk_pkg::X_WIDTH-1:0] x;
+
+  if (blysk_pkg::INPUT_SIGNED != 0) begin : signed_input
+    assign facing_away = x_i[blysk_pkg::INPUT_WIDTH-1];
+  end else begin : unsigned_input
+    assign facing_away = 1'b0;
+  end
+  if (blysk_pkg::INPUT_EXCEEDS_ONE != 0) begin : wide_input
+    assign above_one = !facing_away && x_i > blysk_pkg::INPUT_WIDTH'(blysk_pkg::X_GREATEST);
+  end else begin : narrow_input
+    assign above_one = 1'b0;
+  end
+  assign x = facing_away ? '0 : above_one ? blysk_pkg::X_GREATEST : x_i[blysk_pkg::X_WIDTH-1:0];
+
+  // ---- Which part answers -------------------------------------------------------------------------
+  logic [blysk_pkg::REGION_WIDTH-1:0] region_d, region_q;
+  logic                    above_cut, no_word;
+  assign no_word = status_i[blysk_pkg::STATUS_NO_WORD];
+
+  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : cut
+    assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= blysk_pkg::CUT_COMPARE_WIDTH'(cut_i);
+  end else begin : no_cut
+    assign above_cut = 1'b0;
+    logic unused;
+    assign unused = &{1'b0, cut_i};
+  end
+
+  always_comb begin
+    region_d = blysk_pkg::REGION_ZERO;
+    if (!no_word && !facing_away) begin
+      if (above_cut)          region_d = blysk_pkg::REGION_POLYNOMIAL;
+      else if (blysk_pkg::HAS_TAIL != 0) region_d = blysk_pkg::REGION_TAIL;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (load_i) region_q <= region_d;
+  end
+  assign region_o = region_q;
+
+  // ---- The polynomial's variable: x, or u = (1 - x) * 2^e -----------------------------------------
+  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : variable
+    logic [blysk_pkg::V_WIDTH-1:0] v_d, v_q;
+
+    if (blysk_pkg::CENTRED != 0) begin : centred
+      localparam int S_WIDTH = blysk_pkg::INPUT_FRACTION + 1;
+      localparam int U_WIDTH = blysk_pkg::V_WIDTH + blysk_pkg::U_DROP + 2;
+      logic        [S_WIDTH-1:0] s;
+      logic signed [U_WIDTH-1:0] u;
+      assign s = region_d == blysk_pkg::REGION_POLYNOMIAL
+          ? (S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION) - S_WIDTH'(x) : '0;
+      assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift_i;
+      blysk_round_shift #(
+        .IN_WIDTH(U_WIDTH), .DROP(blysk_pkg::U_DROP), .OUT_WIDTH(blysk_pkg::V_WIDTH), .MODE(blysk_pkg::ROUNDING)
+      ) round_u (
+        .value_i(u), .rounded_o(v_d)
+      );
+    end else begin : power
+      assign v_d = region_d == blysk_pkg::REGION_POLYNOMIAL ? x : blysk_pkg::X_GREATEST;
+      logic unused;
+      assign unused = &{1'b0, shift_i};
+    end
+
+    always_ff @(posedge clk_i) begin
+      if (load_i) v_q <= v_d;
+    end
+    assign v_o = v_q;
+  end else begin : no_variable
+    assign v_o = '0;
+    logic unused;
+    assign unused = &{1'b0, shift_i};
+  end
+
+  // ---- The divider's x ----------------------------------------------------------------------------
+  if (blysk_pkg::HAS_TAIL != 0) begin : tail
+    logic [blysk_pkg::X_WIDTH-1:0] tail_x_d, tail_x_q;
+    assign tail_x_d = region_d == blysk_pkg::REGION_TAIL ? x : '0;
+    always_ff @(posedge clk_i) begin
+      if (load_i) tail_x_q <= tail_x_d;
+    end
+    assign tail_x_o = tail_x_q;
+  end else begin : no_tail
+    assign tail_x_o = '0;
+  end
+
+  // ---- Status -------------------------------------------------------------------------------------
+  logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
+
+  always_comb begin
+    status_d                                = status_i;
+    status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
+    status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (load_i) status_q <= status_d;
+  end
+  assign status_o = status_q;
+
+endmodule
+
+`default_nettype wire

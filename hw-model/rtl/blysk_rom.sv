@@ -1,0 +1,91 @@
+// The coefficient ROM: one word for each exponent, and the fields of a word. Twin of src/rom.rs.
+//
+// The word is read into a register, as a block RAM does it, when rank 0 (fetch) loads. Fields that are
+// the same in every row take no place in the word; they are constants here. An address without a word
+// reads the first one, so that nothing stands between the memory and its register; no_word_o says
+// that the address had none.
+`default_nettype none
+
+module blysk_rom #(
+  parameter ROM_FILE = "rom.mem"
+) (
+  input  logic                                clk_i,
+  input  logic                                load_i,
+  input  logic [blysk_pkg::ADDRESS_WIDTH-1:0] address_i,
+  output logic                                no_word_o,
+  output logic [blysk_pkg::C3_WIDTH-1:0]      c3_o,
+  output logic [blysk_pkg::C2_WIDTH-1:0]      c2_o,
+  output logic [blysk_pkg::C1_WIDTH-1:0]      c1_o,
+  output logic [blysk_pkg::C0_WIDTH-1:0]      c0_o,
+  output logic [blysk_pkg::CUT_WIDTH-1:0]     cut_o,
+  output logic [blysk_pkg::SHIFT_WIDTH-1:0]   shift_o,
+  output logic [blysk_pkg::TAIL_A_WIDTH-1:0]  tail_a_o,
+  output logic [blysk_pkg::TAIL_B_WIDTH-1:0]  tail_b_o
+);
+
+  // ---- The memory -------------------------------------------------------------------------------
+  logic [blysk_pkg::ROM_WIDTH-1:0] words[0:blysk_pkg::ROM_DEPTH-1];
+  initial $readmemh(ROM_FILE, words);
+
+  logic                       has_word;
+  logic [blysk_pkg::ROM_INDEX_WIDTH-1:0] index;
+  logic [blysk_pkg::ROM_WIDTH-1:0]       word_q;
+  logic                       no_word_q;
+
+  // The address port has at least one value more than there are words.
+  assign has_word = address_i < blysk_pkg::ADDRESS_WIDTH'(blysk_pkg::ROM_DEPTH);
+  assign index    = has_word ? address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0;
+
+  always_ff @(posedge clk_i) begin
+    if (load_i) begin
+      word_q    <= words[index];
+      no_word_q <= !has_word;
+    end
+  end
+  assign no_word_o = no_word_q;
+
+  // ---- The fields of the word, or their constants -------------------------------------------------
+  if (blysk_pkg::C3_STORED != 0) begin : c3
+    assign c3_o = word_q[blysk_pkg::C3_LSB+:blysk_pkg::C3_WIDTH];
+  end else begin : c3_constant
+    assign c3_o = blysk_pkg::C3_CONSTANT;
+  end
+  if (blysk_pkg::C2_STORED != 0) begin : c2
+    assign c2_o = word_q[blysk_pkg::C2_LSB+:blysk_pkg::C2_WIDTH];
+  end else begin : c2_constant
+    assign c2_o = blysk_pkg::C2_CONSTANT;
+  end
+  if (blysk_pkg::C1_STORED != 0) begin : c1
+    assign c1_o = word_q[blysk_pkg::C1_LSB+:blysk_pkg::C1_WIDTH];
+  end else begin : c1_constant
+    assign c1_o = blysk_pkg::C1_CONSTANT;
+  end
+  if (blysk_pkg::C0_STORED != 0) begin : c0
+    assign c0_o = word_q[blysk_pkg::C0_LSB+:blysk_pkg::C0_WIDTH];
+  end else begin : c0_constant
+    assign c0_o = blysk_pkg::C0_CONSTANT;
+  end
+  if (blysk_pkg::CUT_STORED != 0) begin : cut
+    assign cut_o = word_q[blysk_pkg::CUT_LSB+:blysk_pkg::CUT_WIDTH];
+  end else begin : cut_constant
+    assign cut_o = blysk_pkg::CUT_CONSTANT;
+  end
+  if (blysk_pkg::SHIFT_STORED != 0) begin : shift
+    assign shift_o = word_q[blysk_pkg::SHIFT_LSB+:blysk_pkg::SHIFT_WIDTH];
+  end else begin : shift_constant
+    assign shift_o = blysk_pkg::SHIFT_CONSTANT;
+  end
+  if (blysk_pkg::TAIL_A_STORED != 0) begin : tail_a
+    assign tail_a_o = word_q[blysk_pkg::TAIL_A_LSB+:blysk_pkg::TAIL_A_WIDTH];
+  end else begin : tail_a_constant
+    assign tail_a_o = blysk_pkg::TAIL_A_CONSTANT;
+  end
+  if (blysk_pkg::TAIL_B_STORED != 0) begin : tail_b
+    assign tail_b_o = word_q[blysk_pkg::TAIL_B_LSB+:blysk_pkg::TAIL_B_WIDTH];
+  end else begin : tail_b_constant
+    assign tail_b_o = blysk_pkg::TAIL_B_CONSTANT;
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,90 @@
+//! Small sets of x that together kill what they should.
+
+use super::rows::Mask;
+
+/// Indices of the fewest masks that together have every bit of `wanted`; each bit must be in some mask.
+///
+/// Exact: breadth first over the sets of bits that can be had with one mask, with two, and so on. There are
+/// at most 2^16 of them. Of equally small choices the first found is taken, which the order decides.
+#[must_use]
+pub fn fewest(masks: &[Mask], wanted: Mask) -> Vec<usize> {
+    let useful = undominated(masks, wanted);
+    // How each set was first reached: the set before it, and the mask that was added.
+    let mut reached: Vec<Option<(Mask, usize)>> = vec![None; 1 << Mask::BITS];
+    let mut level: Vec<Mask> = vec![0];
+    while reached[usize::from(wanted)].is_none() && wanted != 0 && !level.is_empty() {
+        let mut next = Vec::new();
+        for &set in &level {
+            for &index in &useful {
+                let union = (set | masks[index]) & wanted;
+                let place = &mut reached[usize::from(union)];
+                if union != set && place.is_none() {
+                    *place = Some((set, index));
+                    next.push(union);
+                }
+            }
+        }
+        level = next;
+    }
+    chosen(&reached, wanted)
+}
+
+fn chosen(reached: &[Option<(Mask, usize)>], wanted: Mask) -> Vec<usize> {
+    let mut chosen = Vec::new();
+    let mut set = wanted;
+    while set != 0
+        && let Some((before, index)) = reached[usize::from(set)]
+    {
+        chosen.push(index);
+        set = before;
+    }
+    chosen.reverse();
+    chosen
+}
+
+/// The masks that are not part of another one; of equal ones the first.
+fn undominated(masks: &[Mask], wanted: Mask) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..masks.len()).filter(|&i| masks[i] & wanted != 0).collect();
+    order.sort_by_key(|&index| std::cmp::Reverse((masks[index] & wanted).count_ones()));
+    let mut kept: Vec<usize> = Vec::new();
+    for index in order {
+        let mask = masks[index] & wanted;
+        if kept.iter().all(|&other| mask & !masks[other] != 0) {
+            kept.push(index);
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// The least number, by trying every choice.
+    fn least(masks: &[Mask], wanted: Mask) -> usize {
+        (0_u32..1 << masks.len())
+            .filter(|choice| {
+                let taken = (0..masks.len()).filter(|i| choice >> i & 1 == 1);
+                taken.fold(0, |set, i| set | masks[i]) & wanted == wanted
+            })
+            .map(|choice| choice.count_ones() as usize)
+            .min()
+            .unwrap()
+    }
+
+    proptest! {
+        #[test]
+        fn no_smaller_choice_has_everything(
+            masks in prop::collection::vec(any::<u16>(), 1..10), some in any::<u16>(),
+        ) {
+            let all = masks.iter().fold(0, |set, mask| set | mask);
+            for wanted in [all, all & some] {
+                let choice = fewest(&masks, wanted);
+                let union = choice.iter().fold(0, |set, &index| set | masks[index]);
+                prop_assert_eq!(union & wanted, wanted);
+                prop_assert_eq!(choice.len(), least(&masks, wanted));
+            }
+        }
+    }
+}

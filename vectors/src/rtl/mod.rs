@@ -1,0 +1,123 @@
+//! The hardware as files: RTL, package, testbench, and what runs them.
+
+mod package;
+pub mod probes;
+mod project;
+pub mod register_log;
+mod testbench;
+
+use std::io::Write;
+
+use dashu_int::UBig;
+use hw_model::datapath::Signals;
+use hw_model::design::Design;
+use hw_model::rtl::{SOURCES, TOP};
+
+use crate::bundle::{Bundle, BundleError};
+use crate::manifest::Manifest;
+use crate::whole_file::{OutputError, OutputFile, OutputSet};
+
+pub use package::package;
+pub use testbench::testbench;
+
+use probes::StageWord;
+
+/// The name of the package.
+pub const PACKAGE: &str = "blysk_pkg.sv";
+/// The name of the testbench.
+pub const TESTBENCH: &str = "blysk_tb.sv";
+/// Every computed register of every vector, for the testbench.
+pub const STAGES: &str = "stages.mem";
+/// The exponent of each ROM word, as the bits of an IEEE double, for messages of the testbench.
+pub const EXPONENTS: &str = "exponents.mem";
+
+/// What the generated files are about.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// The module under test: [`TOP`], or a designer's own with the same ports.
+    pub dut: &'a str,
+    /// Vectors in the bundle.
+    pub vectors: u64,
+    /// The command that made the files.
+    pub command: &'a str,
+}
+
+impl Sources<'_> {
+    /// True where the module under test is the project's own, whose registers are known.
+    #[must_use]
+    pub fn is_own(&self) -> bool {
+        self.dut == TOP
+    }
+}
+
+/// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
+/// Makefile and FuseSoC core file.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn stage(
+    bundle: &Bundle<'_>,
+    dut: &str,
+    command: &str,
+    set: &mut OutputSet,
+) -> Result<Manifest, BundleError> {
+    let design = bundle.design();
+    let sources = Sources { design, dut, vectors: bundle.vector_count(), command };
+    for (name, text) in SOURCES {
+        set.write(name, text)?;
+    }
+    set.write(PACKAGE, package(design, command))?;
+    set.write(TESTBENCH, testbench(&sources))?;
+    set.write("Makefile", project::makefile(&sources))?;
+    set.write("blysk.core", project::core_file(&sources))?;
+    stage_words(bundle, command, set)?;
+    set.write(EXPONENTS, exponents(design, command))?;
+    bundle.stage(set)
+}
+
+fn stage_words(bundle: &Bundle<'_>, command: &str, set: &mut OutputSet) -> Result<(), OutputError> {
+    let datapath = bundle.design().datapath();
+    let word = StageWord::of(datapath);
+    let mut file = set.file(STAGES)?;
+    write_stage_words(&mut file, bundle, command, &word).map_err(|cause| file.error(cause))?;
+    set.keep(file)
+}
+
+fn write_stage_words(
+    file: &mut OutputFile,
+    bundle: &Bundle<'_>,
+    command: &str,
+    word: &StageWord,
+) -> std::io::Result<()> {
+    writeln!(file, "// Blysk registers in the rank that computes them, for $readmemh")?;
+    for (probe, lsb) in word.fields.iter().rev() {
+        let format = probe.register.format;
+        writeln!(file, "//   [{}:{lsb}] {} {format}", lsb + format.width() - 1, probe.name)?;
+    }
+    writeln!(file, "// made by: {command}")?;
+    let digits = word.width.div_ceil(4) as usize;
+    for sample in bundle.samples() {
+        let passage = bundle.design().datapath().passage(sample.case.address, sample.case.x);
+        writeln!(file, "{:0digits$x}", pack(word, &passage))?;
+    }
+    Ok(())
+}
+
+fn pack(word: &StageWord, passage: &[Signals]) -> UBig {
+    word.fields.iter().fold(UBig::ZERO, |packed, (probe, lsb)| {
+        let bits = (probe.register.bits)(&passage[probe.rank]);
+        packed | (UBig::from(probe.register.format.to_word(bits)) << *lsb as usize)
+    })
+}
+
+fn exponents(design: &Design, command: &str) -> String {
+    let head =
+        "// Blysk exponents of the ROM words as IEEE doubles, for $readmemh and $bitstoreal\n";
+    let mut text = format!("{head}// made by: {command}\n");
+    for exponent in design.rom().exponents().iter() {
+        text += &format!("{:016x}\n", exponent.to_bits());
+    }
+    text
+}

@@ -1,0 +1,115 @@
+//! Where each register of the model is in the RTL.
+
+use hw_model::datapath::{Datapath, Register};
+
+/// A register of the model with its place in the RTL.
+#[derive(Debug, Clone)]
+pub struct Probe {
+    /// The rank.
+    pub rank: usize,
+    /// The rank's name and the register's: `stage1.t1`.
+    pub name: String,
+    /// The model's register.
+    pub register: Register,
+    /// What it is called in the RTL, below the top module: `polynomial.stage1.t_q`. In a rank where
+    /// the model keeps a field apart that the RTL keeps in a wider register, a wire that shows it.
+    pub path: String,
+}
+
+/// Every register of every rank, in the order of traces.
+#[must_use]
+pub fn probes(datapath: &Datapath) -> Vec<Probe> {
+    let mut probes = Vec::new();
+    for rank in 0..datapath.rank_count() {
+        let scope = datapath.rank_name(rank);
+        for register in datapath.registers(rank) {
+            let name = format!("{scope}.{}", register.name);
+            let path = path(datapath, rank, register.name);
+            probes.push(Probe { rank, name, register, path });
+        }
+    }
+    probes
+}
+
+/// The valid flag of a rank.
+#[must_use]
+pub fn valid_path(rank: usize) -> String {
+    format!("handshake.valid_q[{rank}]")
+}
+
+/// Ranks before the first multiply-add stage.
+const HEAD: usize = 2;
+/// The rank of t3.
+const STAGE3: usize = 4;
+
+fn path(datapath: &Datapath, rank: usize, name: &str) -> String {
+    let last = datapath.rank_count() - 1;
+    match (rank, name) {
+        (0, "x") => "x_q".to_owned(),
+        (0, "status") => "fetch_status".to_owned(),
+        (0, field) => field.to_owned(),
+        (_, "intensity" | "status") if rank == last => format!("clamp.{name}_q"),
+        (1, "v") => "front_end.variable.v_q".to_owned(),
+        (1, "tail_x") => "front_end.tail.tail_x_q".to_owned(),
+        (1, "region" | "status") => format!("front_end.{name}_q"),
+        (_, "region" | "status") => carried(&format!("{name}_delay"), rank - HEAD),
+        (_, "c3" | "c2" | "c1" | "c0") => carried(&format!("polynomial.{name}_delay"), rank - 1),
+        (_, "tail_a") => carried("tail.a_delay", rank - 1),
+        (_, "tail_b") => carried("tail.b_delay", rank - 1),
+        (_, "v") => carried(&format!("polynomial.v_delay_{rank}"), 0),
+        (_, "t1" | "t2") => format!("polynomial.stage{}.t_q", rank - 1),
+        (STAGE3, "t3") => "polynomial.stage3.t_q".to_owned(),
+        (_, "t3") => carried("polynomial.wait_for_tail.t3_delay", rank - STAGE3 - 1),
+        (HEAD, "divisor") => "tail.divider.divisor_stage.t_q".to_owned(),
+        (HEAD, division) => format!("tail.divider.{division}_q"),
+        (_, division) => digit_stage(datapath, rank - HEAD - 1, division),
+    }
+}
+
+/// The registers after digit stage `step`, and where the division waits for the polynomial.
+fn digit_stage(datapath: &Datapath, step: usize, name: &str) -> String {
+    let steps = datapath.divider().map_or(0, |divider| divider.digit_stages() as usize);
+    match name {
+        "divisor" => format!("tail.divider.digit_stage[{step}].quotient_bits.carried.divisor_q"),
+        _ if step < steps => format!("tail.divider.digit_stage[{step}].quotient_bits.{name}_q"),
+        _ => carried(&format!("tail.wait_for_polynomial.{name}_delay"), step - steps),
+    }
+}
+
+fn carried(delay: &str, rank: usize) -> String {
+    format!("{delay}.carried.register[{rank}].value_q")
+}
+
+/// The word of `stages.mem`: every register in the rank that computes it, from bit 0 up.
+#[derive(Debug, Clone)]
+pub struct StageWord {
+    /// The computed registers, with their lowest bit in the word.
+    pub fields: Vec<(Probe, u32)>,
+    /// Bits of the word.
+    pub width: u32,
+}
+
+impl StageWord {
+    /// The word of a data path.
+    #[must_use]
+    pub fn of(datapath: &Datapath) -> Self {
+        let mut width = 0;
+        let computed = probes(datapath).into_iter().filter(|probe| probe.register.computed);
+        let fields = computed
+            .map(|probe| {
+                let lsb = width;
+                width += probe.register.format.width();
+                (probe, lsb)
+            })
+            .collect();
+        Self { fields, width }
+    }
+
+    /// Where the value that a register holds in `rank` stands in the word: that of the last rank up
+    /// to there that computed it.
+    #[must_use]
+    pub fn lsb(&self, rank: usize, name: &str) -> Option<u32> {
+        let mut before = self.fields.iter().filter(|(probe, _)| probe.rank <= rank);
+        before.rfind(|(probe, _)| probe.register.name == name).map(|&(_, lsb)| lsb)
+    }
+}

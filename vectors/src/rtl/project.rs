@@ -1,0 +1,39 @@
+//! What runs the testbench: a Makefile for Icarus and Verilator, and a FuseSoC core file.
+
+use askama::Template;
+use hw_model::rtl::SOURCES;
+
+use super::{PACKAGE, Sources};
+
+/// The text of the Makefile.
+#[must_use]
+pub fn makefile(sources: &Sources<'_>) -> String {
+    // The template writes to a String, which cannot fail.
+    Makefile { sources, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
+}
+
+/// The text of the FuseSoC core file.
+#[must_use]
+pub fn core_file(sources: &Sources<'_>) -> String {
+    CoreFile { sources, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
+}
+
+#[derive(Template)]
+#[template(path = "Makefile.mk", escape = "none")]
+struct Makefile<'a> {
+    sources: &'a Sources<'a>,
+    rtl: Vec<&'static str>,
+}
+
+#[derive(Template)]
+#[template(path = "blysk.core", escape = "none")]
+struct CoreFile<'a> {
+    sources: &'a Sources<'a>,
+    rtl: Vec<&'static str>,
+}
+
+/// The package, and the pipeline where it is what is tested.
+fn rtl(sources: &Sources<'_>) -> Vec<&'static str> {
+    let own = SOURCES.iter().filter(|_| sources.is_own()).map(|&(name, _)| name);
+    std::iter::once(PACKAGE).chain(own).collect()
+}

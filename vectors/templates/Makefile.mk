@@ -1,0 +1,60 @@
+# Runs the testbench of configuration [[ sources.design.config().name ]] in Icarus Verilog or Verilator.
+# Made by: [[ sources.command ]]
+#
+#   make icarus | verilator     run every vector; the last line is PASS or FAIL
+#   make control                a corrupted vector must FAIL
+#   make lint                   both tools, all warnings
+#   make waves                  run in Icarus and dump waves.vcd
+#   make clean
+#
+# Options of the testbench go into ARGUMENTS: make icarus ARGUMENTS="+seed=7 +log=dut.csv".
+
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.PHONY: icarus verilator control lint waves clean
+
+TOP       = [[ sources.dut ]]
+RTL       = [[ rtl.join(" ") ]]
+<%- if !sources.is_own() %>
+# The sources of [[ sources.dut ]].
+DUT      ?=
+RTL      += $(DUT)
+<%- endif %>
+VERILATOR ?= verilator
+IVERILOG  ?= iverilog
+VVP       ?= vvp
+ARGUMENTS ?=
+BUILD     ?= build
+
+# What a simulator prints, and its verdict as exit status.
+JUDGE = tee $(BUILD)/log && tail -n 1 $(BUILD)/log | grep -q '^PASS [1-9]'
+
+icarus: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp $(ARGUMENTS) | $(JUDGE)
+
+verilator: $(BUILD)/verilated/blysk_tb
+	@$(BUILD)/verilated/blysk_tb $(ARGUMENTS) | grep -v '^- .*\$$finish' | $(JUDGE)
+
+control: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp +expected=negative_control.mem | tee $(BUILD)/log
+	@tail -n 1 $(BUILD)/log | grep -q '^FAIL vector'
+
+$(BUILD)/blysk.vvp: $(RTL) blysk_tb.sv
+	@mkdir -p $(BUILD)
+	$(IVERILOG) -g2012 -Wall -Wno-timescale -s blysk_tb -o $@ $(RTL) blysk_tb.sv
+
+$(BUILD)/verilated/blysk_tb: $(RTL) blysk_tb.sv
+	@mkdir -p $(BUILD)
+	$(VERILATOR) --binary --timing -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
+	  --top-module blysk_tb --Mdir $(BUILD)/verilated -o blysk_tb $(RTL) blysk_tb.sv > $(BUILD)/verilator.log \
+	  || { cat $(BUILD)/verilator.log; exit 1; }
+
+lint:
+	$(IVERILOG) -g2012 -Wall -s $(TOP) -o /dev/null $(RTL)
+	$(VERILATOR) --lint-only -Wall --top-module $(TOP) $(RTL)
+
+waves: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp +waves=waves.vcd $(ARGUMENTS) | $(JUDGE)
+
+clean:
+	rm -rf $(BUILD) waves.vcd

@@ -1,0 +1,359 @@
+// Self-checking testbench of the configuration "[[ configuration ]]".
+// Made by: [[ command ]]
+//
+// Sends every vector of stimulus.mem through the DUT and judges, in every cycle,
+//   - the handshake: in_ready_o and out_valid_o against a mirror of the rules, and so latency and order;
+//   - the results against expected.mem, also while they are stalled;
+<%- if white_box %>
+//   - every register of every rank against stages.mem, so that the first stage that departs is named.
+<%- endif %>
+// Stalls, bubbles and resets in mid-flight come from the seed; what a reset loses is sent again. X is
+// never right (`!==`). Ends with one line, "PASS <count> vectors" or "FAIL ...".
+//
+// Options:
+//   +seed=N           another order of stalls, bubbles and resets (1)
+//   +plain            no stalls, bubbles or resets
+//   +expected=FILE    other answers (expected.mem); negative_control.mem must FAIL
+//   +waves=FILE       dump waves
+//   +log=FILE         write every answer as CSV for `blysk check`, and do not stop at the first failure
+<%- if white_box %>
+//   +registers=N      no vectors: N random cycles, every register printed for `blysk check --registers`
+<%- endif %>
+`timescale 1ns / 1ps
+`default_nettype none
+
+module blysk_tb;
+
+  localparam int VECTORS  = [[ vectors ]];
+  localparam int RANKS    = [[ ranks ]];
+  localparam int DEPTH    = [[ depth ]];
+  localparam int ADDRESS  = [[ address.width ]];
+  localparam int INPUT    = [[ x.width ]];
+  localparam int OUTPUT   = [[ intensity.width ]];
+  localparam int STATUS   = [[ status_width ]];
+  localparam int STAGES   = [[ stage_width ]];
+  // A word that no file wrote keeps its mark, which lies above the bits of the word.
+  localparam int MARK     = 4;
+
+  // ---- Vectors ------------------------------------------------------------------------------------
+  logic [MARK+ADDRESS+INPUT-1:0] stimulus [0:VECTORS-1];
+  logic [MARK+STATUS+OUTPUT-1:0] expected [0:VECTORS-1];
+<%- if white_box %>
+  logic [MARK+STAGES-1:0]        stages   [0:VECTORS-1];
+<%- endif %>
+  logic [MARK+63:0]              exponents[0:DEPTH-1];
+
+  string  expected_file, waves_file, log_file;
+  integer seed, log, trace_cycles, i;
+  logic   plain;
+
+  task automatic complete(input logic unwritten, input string name, input integer index);
+    if (unwritten !== 1'b0) begin
+      $display("FAIL %0s: word %0d is missing; the file is not there or is too short", name, index);
+      $finish;
+      ended = 1'b1;
+    end
+  endtask
+
+  initial begin
+    ended = 1'b0;
+    if (!$value$plusargs("seed=%d", seed)) seed = 1;
+    if (!$value$plusargs("expected=%s", expected_file)) expected_file = "expected.mem";
+    if (!$value$plusargs("registers=%d", trace_cycles)) trace_cycles = 0;
+    plain = $test$plusargs("plain") != 0;
+    random = 32'(seed) * 32'h9e3779b9 + 32'h7f4a7c15;
+    if (random == 0) random = 1;
+    for (i = 0; i < VECTORS; i = i + 1) begin
+      stimulus[i] = '1;
+      expected[i] = '1;
+<%- if white_box %>
+      stages[i]   = '1;
+<%- endif %>
+    end
+    for (i = 0; i < DEPTH; i = i + 1) exponents[i] = '1;
+    $readmemh("stimulus.mem", stimulus, 0, VECTORS - 1);
+    $readmemh(expected_file, expected, 0, VECTORS - 1);
+<%- if white_box %>
+    $readmemh("stages.mem", stages, 0, VECTORS - 1);
+<%- endif %>
+    $readmemh("exponents.mem", exponents, 0, DEPTH - 1);
+    for (i = 0; i < VECTORS && !ended; i = i + 1) begin
+      complete(stimulus[i][MARK+ADDRESS+INPUT-1], "stimulus.mem", i);
+      if (!ended) complete(expected[i][MARK+STATUS+OUTPUT-1], expected_file, i);
+<%- if white_box %>
+      if (!ended) complete(stages[i][MARK+STAGES-1], "stages.mem", i);
+<%- endif %>
+    end
+    for (i = 0; i < DEPTH && !ended; i = i + 1) complete(exponents[i][MARK+63], "exponents.mem", i);
+    if (VECTORS == 0 && !ended) begin
+      $display("FAIL no vectors: nothing would be checked");
+      $finish;
+      ended = 1'b1;
+    end
+    if ($value$plusargs("waves=%s", waves_file)) begin
+      $dumpfile(waves_file);
+      $dumpvars(0, blysk_tb);
+    end
+    log = 0;
+    if ($value$plusargs("log=%s", log_file)) begin
+      log = $fopen(log_file, "w");
+      if (log == 0) begin
+        $display("FAIL cannot write %0s", log_file);
+        $finish;
+        ended = 1'b1;
+      end
+      $fwrite(log, "index,intensity,status[[ log_columns ]]\n");
+    end
+  end
+
+  // ---- Clock, DUT ---------------------------------------------------------------------------------
+  logic               clk = 1'b0;
+  logic               rst = 1'b1;
+  logic               in_valid = 1'b0;
+  logic [ADDRESS-1:0] address = '0;
+  logic [INPUT-1:0]   x = '0;
+  logic               out_ready = 1'b0;
+  logic               in_ready, out_valid;
+  logic [OUTPUT-1:0]  intensity;
+  logic [STATUS-1:0]  status;
+
+  always #5 clk = !clk;
+
+  [[ dut ]] dut (
+    .clk_i(clk), .rst_i(rst),
+    .in_valid_i(in_valid), .in_ready_o(in_ready), .address_i(address), .x_i(x),
+    .out_valid_o(out_valid), .out_ready_i(out_ready), .intensity_o(intensity), .status_o(status)
+  );
+
+  // ---- Random numbers: xorshift, the same in every simulator ----------------------------------------
+  logic [31:0] random;
+
+  task automatic draw;
+    random = random ^ (random << 13);
+    random = random ^ (random >> 17);
+    random = random ^ (random << 5);
+  endtask
+
+  // ---- Failures -------------------------------------------------------------------------------------
+  integer failures = 0;
+  logic   ended;
+
+  function automatic real value(input logic [63:0] bits, input integer width, input integer is_signed,
+                                input integer fraction);
+    logic [63:0] magnitude;
+    magnitude = bits;
+    if (is_signed != 0 && bits[width-1]) magnitude = (~bits + 64'd1) & ((64'd1 << width) - 64'd1);
+    value = $itor(magnitude[61:31]) * 2147483648.0 + $itor(magnitude[30:0])
+        + (magnitude[62] ? 4611686018427387904.0 : 0.0);
+    if (is_signed != 0 && bits[width-1]) value = -value;
+    value = value / (2.0 ** fraction);
+  endfunction
+
+  task automatic fail(input integer index, input string where, input logic [63:0] got,
+                      input logic [63:0] wanted, input integer width, input integer is_signed,
+                      input integer fraction);
+    logic [ADDRESS-1:0] fail_address;
+    logic [INPUT-1:0]   fail_x;
+    real                exponent;
+    failures = failures + 1;
+    {fail_address, fail_x} = stimulus[index][ADDRESS+INPUT-1:0];
+    exponent = 0.0;
+    if (32'(fail_address) < DEPTH) exponent = $bitstoreal(exponents[32'(fail_address)][63:0]);
+    if (log == 0) begin
+      $display("FAIL vector %0d: address %0d (n = %0g), x = %0d'h%h (%0.9g), cycle %0d: %0s is %0d'h%0h (%0.9g), expected %0d'h%0h (%0.9g)",
+        index, fail_address, exponent, INPUT, fail_x,
+        value(64'(fail_x), INPUT, [[ x.signed ]], [[ x.fraction ]]), cycle, where,
+        width, got, value(got, width, is_signed, fraction),
+        width, wanted, value(wanted, width, is_signed, fraction));
+      $finish;
+      ended = 1'b1;
+    end
+  endtask
+
+  task automatic fail_port(input string port, input logic got, input logic wanted, input string why);
+    failures = failures + 1;
+    $display("FAIL handshake, cycle %0d: %0s is %b, expected %b: %0s", cycle, port, got, wanted, why);
+    $finish;
+    ended = 1'b1;
+  endtask
+
+  // ---- The mirror: which vector each rank holds -----------------------------------------------------
+  logic [RANKS-1:0] held, advance;
+  integer           vector_of [0:RANKS-1];
+  integer           sent, received, cycle, stalls, bubbles, resets, reset_left, idle, rank;
+  integer           words_compared, mode;
+  logic             expect_ready;
+
+  initial begin
+    held = '0;
+    sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = 0;
+    words_compared = 0;
+    reset_left = 2;
+  end
+<%- if white_box %>
+
+  // What each vector showed, for the log.
+  logic [STAGES-1:0] seen [0:VECTORS-1];
+
+  // Every register of every rank that holds a vector; the first that departs is the fault's stage.
+  task automatic compare_registers;
+    logic [STAGES-1:0] word;
+<%- for rank in white_box_ranks %>
+    if (held[ [[ rank.index ]] ] && !ended) begin
+      word = stages[vector_of[ [[ rank.index ]] ]][STAGES-1:0];
+<%- for register in rank.registers %>
+      if ([[ register.path ]] !== word[ [[ register.msb ]]:[[ register.lsb ]] ] && !ended)
+        fail(vector_of[ [[ rank.index ]] ], "[[ register.name ]]", 64'([[ register.path ]]),
+          64'(word[ [[ register.msb ]]:[[ register.lsb ]] ]), [[ register.width ]], [[ register.signed ]], [[ register.fraction ]]);
+<%- if register.computed %>
+      seen[vector_of[ [[ rank.index ]] ]][ [[ register.msb ]]:[[ register.lsb ]] ] = [[ register.path ]];
+<%- endif %>
+<%- endfor %>
+      words_compared = words_compared + [[ rank.count ]];
+    end
+<%- endfor %>
+  endtask
+<%- endif %>
+
+  task automatic compare_result;
+    integer index;
+    index = vector_of[RANKS-1];
+    if (intensity !== expected[index][OUTPUT-1:0] && !ended)
+      fail(index, "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
+    if (status !== expected[index][STATUS+OUTPUT-1:OUTPUT] && !ended)
+      fail(index, "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
+    words_compared = words_compared + 2;
+    if (out_ready && !rst) begin
+      if (index != received && !ended) begin
+        $display("FAIL order: a mistake of the mirror");
+        $finish;
+        ended = 1'b1;
+      end
+      if (log != 0) $fwrite(log, "%0d,%h,%h[[ log_format ]]\n", index, intensity, status[[ log_values ]]);
+      received = index + 1;
+    end
+  endtask
+
+  task automatic compare_handshake;
+    advance[RANKS-1] = !held[RANKS-1] || out_ready;
+    for (rank = RANKS - 2; rank >= 0; rank = rank - 1) advance[rank] = !held[rank] || advance[rank+1];
+    expect_ready = advance[0] && !rst;
+    if (cycle > 0) begin
+      if (in_ready !== expect_ready && !ended)
+        fail_port("in_ready_o", in_ready, expect_ready, "a rank advances when it is empty or the next one advances");
+      if (out_valid !== held[RANKS-1] && !ended)
+        fail_port("out_valid_o", out_valid, held[RANKS-1], "the latency is [[ ranks ]] cycles, and more where it is stalled");
+<%- if white_box %>
+      if (dut.handshake.valid_q !== held && !ended)
+        fail_port("a valid flag", 1'b0, 1'b1, "the mirror has another set of ranks that hold a vector");
+<%- endif %>
+    end
+  endtask
+
+  // What the edge does.
+  task automatic step;
+    for (rank = RANKS - 1; rank > 0; rank = rank - 1) begin
+      if (advance[rank]) begin
+        held[rank]      = held[rank-1];
+        vector_of[rank] = vector_of[rank-1];
+      end
+    end
+    if (advance[0]) begin
+      held[0] = in_valid && !rst;
+      vector_of[0] = sent;
+      if (in_valid && !rst) sent = sent + 1;
+    end
+    if (rst) begin
+      held = '0;
+      // What was in flight is lost, and sent again.
+      sent = received;
+    end
+  endtask
+
+  // What the next cycle is given.
+  task automatic drive;
+    draw;
+    if (cycle % 128 == 0) mode = plain || cycle < 128 ? 0 : 32'(random[9:8]);
+    if (reset_left > 0) reset_left = reset_left - 1;
+    else if (!plain && resets < 3 && sent > (resets + 1) * VECTORS / 4 && random[31:28] == 0) begin
+      reset_left = 2;
+      resets = resets + 1;
+    end
+    rst <= reset_left > 0;
+    out_ready <= !(mode[0] && random[0]);
+    if (mode[0] && random[0]) stalls = stalls + 1;
+    if (sent < VECTORS && !(mode[1] && random[1])) begin
+      in_valid <= 1'b1;
+      {address, x} <= stimulus[sent][ADDRESS+INPUT-1:0];
+    end else begin
+      // A bubble carries rubbish, which must not show.
+      in_valid <= 1'b0;
+      {address, x} <= (ADDRESS + INPUT)'({random, ~random, random});
+      if (sent < VECTORS) bubbles = bubbles + 1;
+    end
+  endtask
+
+  always @(posedge clk) begin
+    if (!ended && trace_cycles == 0) begin
+      compare_handshake;
+<%- if white_box %>
+      if (!ended) compare_registers;
+<%- endif %>
+      if (held[RANKS-1] && !ended) compare_result;
+      step;
+      drive;
+      cycle = cycle + 1;
+      if (received == VECTORS) idle = idle + 1;
+      // Nothing more may come out.
+      if (idle > 2 * RANKS && !ended) begin
+        if (log != 0) $fclose(log);
+        $display("%0d cycles, %0d stalls, %0d bubbles, %0d resets, %0d values compared",
+          cycle, stalls, bubbles, resets, words_compared);
+        if (failures != 0) $display("FAIL %0d values differ; see the log", failures);
+        else $display("PASS %0d vectors", VECTORS);
+        $finish;
+        ended = 1'b1;
+      end
+    end
+  end
+<%- if white_box %>
+
+  // ---- Random cycles, every register printed ----------------------------------------------------------
+  // One line a cycle, what the edge that ends it sees: the ports, then each rank's valid flag and
+  // registers, in the order of the columns of `blysk simulate --trace`.
+  task automatic drive_anything;
+    integer pick;
+    draw;
+    if (cycle % 64 == 0) mode = 32'(random[9:8]);
+    rst <= cycle < 2 || random[31:24] == 0;
+    out_ready <= !(mode[0] && random[0]);
+    in_valid <= !(mode[1] && random[1]);
+    draw;
+    pick = 32'(random[3:0]);
+    draw;
+    address <= pick[0] ? ADDRESS'(random % DEPTH) : ADDRESS'(random);
+    if (DEPTH > 1 && pick[3:1] != 0) address <= ADDRESS'(random[30:8] % DEPTH);
+    draw;
+    if (pick == 0) x <= INPUT'({random, ~random});
+    else if (pick < 10) x <= INPUT'(64'd1 << [[ x.fraction ]]) - INPUT'({random, random} >> (64 - [[ x.fraction ]] + pick));
+    else if (pick < 14) x <= INPUT'({random, ~random} >> (64 - [[ x.fraction ]]));
+    else {address, x} <= stimulus[random % VECTORS][ADDRESS+INPUT-1:0];
+  endtask
+
+  always @(posedge clk) begin
+    if (!ended && trace_cycles > 0) begin
+      $display("[[ trace_format ]]",
+        rst, in_valid, in_ready, address, x, out_valid, out_ready[[ trace_values ]]);
+      drive_anything;
+      cycle = cycle + 1;
+      if (cycle == trace_cycles) begin
+        $finish;
+        ended = 1'b1;
+      end
+    end
+  end
+<%- endif %>
+
+endmodule
+
+`default_nettype wire
