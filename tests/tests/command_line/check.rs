@@ -136,6 +136,27 @@ fn no_register_is_overlooked() {
     }
 }
 
+/// The registers behind the ports have no column of their own in the table.
+#[test]
+fn registers_that_show_a_port_are_compared() {
+    let bench = bench!();
+    let mut log = right(&bench, "small.json").only(&["intensity", "status"]);
+    let table = blysk_tests::cli::csv_rows(&bench.text("v/vectors.csv"));
+    for name in ["fetch.x", "clamp.intensity", "clamp.status"] {
+        log.columns.push(name.to_owned());
+    }
+    for (line, row) in log.lines.iter_mut().zip(&table) {
+        let ports = [row["x_hex"].clone(), line[0].clone(), line[1].clone()];
+        line.extend(ports);
+    }
+    passes(&bench, &log);
+    for name in ["fetch.x", "clamp.intensity", "clamp.status"] {
+        let mut wrong = log.clone();
+        wrong.spoil(9, name);
+        fails(&bench, &wrong, &["FAIL vector 9:", &format!("departs first at {name}: ")]);
+    }
+}
+
 #[test]
 fn missing_answers_fail() {
     let bench = bench!();

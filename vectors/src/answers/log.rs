@@ -73,12 +73,6 @@ impl Log {
         self.columns.iter().map(|placed| &placed.column)
     }
 
-    /// The names of the registers among the columns.
-    pub(super) fn registers(&self) -> Vec<&str> {
-        let registers = self.columns().filter(|column| !column.is_port());
-        registers.map(|column| column.name.as_str()).collect()
-    }
-
     /// The vectors that no line answered, once all are read.
     pub(super) fn unanswered(&self) -> impl Iterator<Item = usize> {
         (0..).zip(&self.lines).filter(|(_, line)| **line == 0).map(|(index, _)| index)

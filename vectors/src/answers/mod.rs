@@ -7,9 +7,10 @@
 //! | `status`            | likewise                                                 | not compared         |
 //! | `<rank>.<register>` | the register's bits for this vector, in hex              | not compared         |
 //!
-//! The names of registers are those of the columns of `vectors.csv`, with or without `_hex`. Hex is
-//! two's complement in the register's width, as `%h` prints it, or after `0x`. The bundle is what
-//! counts, and not the model that made it.
+//! The names of registers are those of the columns of `vectors.csv`, with or without `_hex`; the
+//! registers that show a port (`fetch.x`, `clamp.intensity`), which have no column of their own there,
+//! are known too. Hex is two's complement in the register's width, as `%h` prints it, or after `0x`.
+//! The bundle is what counts, and not the model that made it.
 
 mod error;
 mod log;
@@ -20,9 +21,7 @@ use std::path::Path;
 use hw_model::format::QFormat;
 
 use crate::manifest::{Manifest, TABLE};
-use crate::packing::WordField;
-use crate::reference::Expected;
-use crate::table::{column_names, read_columns};
+use crate::table::read_columns;
 use crate::verify::verify;
 
 pub use error::AnswersError;
@@ -42,6 +41,8 @@ struct Column {
     format: QFormat,
     /// The rank that computes it.
     rank: usize,
+    /// The column of the bundle's table with what it should hold, as an integer.
+    table: String,
 }
 
 impl Column {
@@ -59,14 +60,13 @@ pub fn check(directory: impl AsRef<Path>, log: &Path) -> Result<Verdict, Answers
     let directory = directory.as_ref();
     let bundle = verify(directory)?;
     let table = directory.join(TABLE);
-    let known = columns(&bundle.manifest, &column_names(&table)?);
-    let mut log = Log::open(log, known, bundle.vectors.len())?;
-    let registers = read_columns(&table, &log.registers())?;
-    let mut tally = Tally::new(log.registers().len());
+    let mut log = Log::open(log, columns(&bundle.manifest), bundle.vectors.len())?;
+    let wanted: Vec<&str> = log.columns().map(|column| column.table.as_str()).collect();
+    let expected = read_columns(&table, &wanted)?;
+    let mut tally = Tally::new(log.columns().filter(|column| !column.is_port()).count());
     while let Some(answer) = log.next_answer()? {
-        let row = &bundle.vectors[answer.index];
-        let expected = expected(&registers[answer.index], row.expected);
-        tally.answer(row, log.columns(), expected, answer);
+        let index = answer.index;
+        tally.answer(&bundle.vectors[index], log.columns(), &expected[index], answer);
     }
     for index in log.unanswered() {
         tally.no_answer(&bundle.vectors[index]);
@@ -75,30 +75,36 @@ pub fn check(directory: impl AsRef<Path>, log: &Path) -> Result<Verdict, Answers
     Ok(tally.verdict(bundle.vectors.len() as u64, ranks, bundle.manifest.configuration.input))
 }
 
-/// What the columns of a log should hold for a vector: registers as they come, then the ports.
-fn expected(registers: &[i64], ports: Expected) -> impl Iterator<Item = i64> {
-    registers.iter().copied().chain([ports.intensity, ports.status.into()])
-}
-
-/// The columns that a log may have, in the order in which a case passes through them: the registers
-/// that the table has, then the ports.
-fn columns(manifest: &Manifest, table: &[String]) -> Vec<Column> {
-    let ranks = (0..).zip(&manifest.hardware.ranks);
-    let registers = ranks.flat_map(|(rank, list)| {
-        list.registers.iter().map(move |register| Column {
-            name: format!("{}.{}", list.name, register.name),
-            format: register.format,
-            rank,
+/// The columns that a log may have, in the order in which a case passes through them: every register
+/// where it is computed, then the ports.
+fn columns(manifest: &Manifest) -> Vec<Column> {
+    let ranks = &manifest.hardware.ranks;
+    let last = ranks.len().saturating_sub(1);
+    let registers = (0..).zip(ranks).flat_map(|(rank, list)| {
+        let computed = list.registers.iter().filter(|register| register.computed);
+        computed.map(move |register| {
+            let name = format!("{}.{}", list.name, register.name);
+            // The table does not say twice what a port shows.
+            let table = match register.name.as_str() {
+                "x" if rank == 0 => "x_bits",
+                port if rank == last => port_column(port).unwrap_or(&name),
+                _ => &name,
+            };
+            Column { table: table.to_owned(), name, format: register.format, rank }
         })
     });
-    let last = manifest.hardware.ranks.len().saturating_sub(1);
-    let ports = [INTENSITY, STATUS].into_iter().filter_map(|name| {
-        let format = field(&manifest.words.expected.fields, name)?.format;
-        Some(Column { name: name.to_owned(), format, rank: last })
+    let ports = manifest.words.expected.fields.iter().rev().filter_map(|field| {
+        let table = port_column(&field.name)?.to_owned();
+        Some(Column { name: field.name.clone(), format: field.format, rank: last, table })
     });
-    registers.filter(|column| table.contains(&column.name)).chain(ports).collect()
+    registers.chain(ports).collect()
 }
 
-fn field<'a>(fields: &'a [WordField], name: &str) -> Option<&'a WordField> {
-    fields.iter().find(|field| field.name == name)
+/// The table's column for an output port.
+fn port_column(name: &str) -> Option<&'static str> {
+    match name {
+        INTENSITY => Some("intensity_bits"),
+        STATUS => Some("status"),
+        _ => None,
+    }
 }

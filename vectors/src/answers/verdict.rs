@@ -105,10 +105,10 @@ impl Tally {
         &mut self,
         vector: &TableRow,
         columns: impl Iterator<Item = &'a Column>,
-        expected: impl Iterator<Item = i64>,
+        expected: &[i64],
         answer: Answer,
     ) {
-        let fields: Vec<_> = columns.zip(expected).zip(answer.values).collect();
+        let fields: Vec<_> = columns.zip(expected.iter().copied()).zip(answer.values).collect();
         let departs = fields.iter().find(|((_, expected), got)| *got != Got::Known(*expected));
         let Some(((column, _), _)) = departs else { return };
         if self.departures.len() <= column.rank {

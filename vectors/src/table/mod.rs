@@ -20,7 +20,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-pub use read::{TableRow, column_names, read_columns, read_table};
+pub use read::{TableRow, read_columns, read_table};
 pub use write::{TableWriter, hex};
 
 /// Why a table is refused.

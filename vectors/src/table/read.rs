@@ -34,15 +34,6 @@ pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
     reader.records().map(row).collect()
 }
 
-/// The names of the columns of the table at `path`, in order.
-///
-/// # Errors
-/// When the file is no table.
-pub fn column_names(path: &Path) -> Result<Vec<String>, TableError> {
-    let (_, header) = open(path)?;
-    Ok(header.iter().map(str::to_owned).collect())
-}
-
 /// The integers in some columns of the table at `path`, line by line.
 ///
 /// # Errors
