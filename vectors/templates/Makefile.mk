@@ -46,7 +46,7 @@ $(BUILD)/blysk.vvp: $(RTL) blysk_tb.sv
 # Some builds of Verilator leave open how their compiler takes a precompiled header.
 $(BUILD)/verilated/blysk_tb: $(RTL) blysk_tb.sv
 	@mkdir -p $(BUILD)
-	$(VERILATOR) --binary --timing -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
+	$(VERILATOR) --binary --timing --trace -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
 	  -MAKEFLAGS CFG_CXXFLAGS_PCH_I=-include \
 	  --top-module blysk_tb --Mdir $(BUILD)/verilated -o blysk_tb $(RTL) blysk_tb.sv > $(BUILD)/verilator.log \
 	  || { cat $(BUILD)/verilator.log; exit 1; }

@@ -9,6 +9,7 @@ use std::process::{ExitCode, Stdio};
 
 use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
+use blysk_tests::rtl::waves;
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::config::Config;
@@ -127,6 +128,11 @@ fn everything(
         totals = totals + part;
         if !simulator.is_icarus() {
             simulator.lint(&emitted.directory)?;
+        }
+        if index == 1 {
+            let waves = waves::compare(emitted, simulator)?;
+            println!("{name:<12} waves (VCD, FST) {:>22} {:>13}", waves.edges, waves.values);
+            totals.registers += waves.values;
         }
         // The long run is in the first Verilator; the others show that it is the same there.
         if random {

@@ -162,8 +162,7 @@ impl Campaign<'_> {
         for bench in [default, smallest] {
             list = netlist::mutate(&bench.directory, MUTATIONS, SEED)?;
             bench.clear(self.verilator)?;
-            let sources = format!("{} blysk_mutated.sv +define+BLYSK_NETLIST", netlist::NETLIST);
-            bench.build(self.verilator, &sources)?;
+            bench.build(self.verilator, &netlist::sources())?;
             found.push(netlist::run(bench, self.verilator, &list)?);
         }
         let by_compact = found.pop().unwrap_or_default();

@@ -4,6 +4,7 @@ pub mod exhaustive;
 pub mod faults;
 pub mod mutants;
 pub mod simulators;
+pub mod waves;
 pub mod workspace;
 
 use std::fmt;

@@ -13,6 +13,8 @@ use crate::rtl::{Failure, failed};
 
 /// The netlist with its mutations.
 pub const NETLIST: &str = "mutated.v";
+/// Tells the wrapper that it wraps a netlist.
+const DEFINE: &str = "blysk_netlist.svh";
 /// The list of mutations, one Yosys command a line.
 const LIST: &str = "mutations.ys";
 /// The netlist before it is mutated, for proofs.
@@ -30,6 +32,8 @@ pub fn mutate(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, 
          script {LIST}; write_verilog -noattr {NETLIST}"
     );
     yosys(directory, &script)?;
+    std::fs::write(directory.join(DEFINE), "`define BLYSK_NETLIST\n")
+        .map_err(|error| Failure(error.to_string()))?;
     let list = std::fs::read_to_string(directory.join(LIST))
         .map_err(|error| Failure(error.to_string()))?;
     let mutations: Vec<String> = list.lines().map(str::to_owned).collect();
@@ -37,6 +41,12 @@ pub fn mutate(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, 
         return failed(format!("{} mutations instead of {count}", mutations.len()));
     }
     Ok(mutations)
+}
+
+/// The sources of the netlist with its wrapper.
+#[must_use]
+pub fn sources() -> String {
+    format!("{DEFINE} {NETLIST} blysk_mutated.sv")
 }
 
 fn yosys(directory: &Path, script: &str) -> Result<String, Failure> {
