@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all setup test bench exhaustive clean help
+.PHONY: all docs setup test bench exhaustive clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -30,6 +30,9 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 	else \
 		echo "The bound holds for every exponent of every preset."; \
 	fi
+
+docs: ## write the hardware reference, docs/hardware/, again
+	@$(BLYSK) document --all-presets --out docs/hardware
 
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup

@@ -340,11 +340,13 @@ impl Picture<'_> {
     fn handshake(&mut self) {
         let (left, right) = (self.columns[0].left, self.last().right());
         let y = self.lanes.handshake;
-        let words = [
-            "handshake: a valid flag for each rank".to_owned(),
-            "load[k] loads every register of rank k".to_owned(),
-        ];
-        self.part((left, y), (right - left, 60.0), colour::GREY, &words);
+        self.canvas.rectangle((left, y), (right - left, 60.0), colour::GREY);
+        // A valid flag stands in each rank; several ranks of a column have several.
+        for column in self.columns.clone() {
+            self.carried(&column, y + 40.0);
+        }
+        let words = "handshake: a valid flag for each rank; load[k] loads every register of rank k";
+        self.canvas.text((left.midpoint(right), y + 20.0), words, Anchor::Middle, NORMAL);
         self.port_in(y + 20.0, "in_valid_i", "");
         self.port_out(y + 20.0, "out_valid_o", "");
         self.canvas.arrow(&[(left, y + 50.0), (0.0, y + 50.0)]);

@@ -149,12 +149,12 @@ impl<'a> Reasons<'a> {
             Some(worst) if ["tail_a", "tail_b", "divisor"].contains(&register) => format!(
                 "{count}: {shows}; with one less in A, B and D the bound would be {} ulp, above the \
                  budget of {budget}",
-                places(worst, 3)
+                above(worst, &budget)
             ),
             Some(worst) => format!(
                 "{count} by the error budget: {shows}; with one less the bound would be {} ulp, above the \
                  budget of {budget}",
-                places(worst, 3)
+                above(worst, &budget)
             ),
             None => format!("{count}: {shows}"),
         }
@@ -168,6 +168,12 @@ impl<'a> Reasons<'a> {
             _ => String::new(),
         }
     }
+}
+
+/// A number in as few places, three or more, as show that it is not the other one.
+fn above(value: f64, other: &str) -> String {
+    let written = (3..12).map(|count| places(value, count));
+    written.clone().find(|text| text != other).or_else(|| written.last()).unwrap_or_default()
 }
 
 fn fraction_bits(format: QFormat) -> String {
