@@ -124,16 +124,16 @@ impl Datapath {
     fn lines<L: Lane>(&self, row: &Row, first: i64, last: i64) -> Lines<L> {
         let variable =
             |x| self.front_end.variable(L::from_bits(x), Region::Polynomial, row.shift());
-        self.from_variable(row, ordered(variable(first), variable(last)))
+        self.of_variable(row, ordered(variable(first), variable(last)))
     }
 
     /// The same where the polynomial does not answer.
     fn idle<L: Lane>(&self, row: &Row) -> Lines<L> {
         let v = self.front_end.variable(L::ZERO, Region::Zero, row.shift());
-        self.from_variable(row, Interval { low: v, high: v })
+        self.of_variable(row, Interval { low: v, high: v })
     }
 
-    fn from_variable<L: Lane>(&self, row: &Row, v: Interval<L>) -> Lines<L> {
+    fn of_variable<L: Lane>(&self, row: &Row, v: Interval<L>) -> Lines<L> {
         let mut lines = [v; 4];
         let Some(stages) = &self.stages else { return lines };
         let c3 = L::from_bits(row.get(FieldName::C3));

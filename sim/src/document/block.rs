@@ -316,7 +316,7 @@ impl Picture<'_> {
         let words = "region · 2, status · 4";
         self.canvas.text((front.right() + 5.0, y + 13.0), words, Anchor::Start, SMALL);
         let middle = self.columns.len() - 1;
-        for column in self.columns[2..middle].to_vec() {
+        for column in self.columns.clone().into_iter().take(middle).skip(2) {
             self.carried(&column, y);
         }
         let top = self.lanes.polynomial;

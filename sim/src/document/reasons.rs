@@ -172,8 +172,8 @@ impl<'a> Reasons<'a> {
 
 /// A number in as few places, three or more, as show that it is not the other one.
 fn above(value: f64, other: &str) -> String {
-    let written = (3..12).map(|count| places(value, count));
-    written.clone().find(|text| text != other).or_else(|| written.last()).unwrap_or_default()
+    let mut written = (3..12).map(|count| places(value, count));
+    written.find(|text| text != other).unwrap_or_else(|| places(value, 12))
 }
 
 fn fraction_bits(format: QFormat) -> String {
