@@ -89,7 +89,7 @@ struct Cores;
 
 impl Workers for Cores {
     fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
-        (0..count).into_par_iter().map(|index| job(index)).collect()
+        (0..count).into_par_iter().map(&job).collect()
     }
 }
 

@@ -4,8 +4,8 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 7] =
-    ["report", "vectors", "check", "simulate", "coefficients", "rom", "presets"];
+const COMMANDS: [&str; 8] =
+    ["report", "vectors", "rtl", "check", "simulate", "coefficients", "rom", "presets"];
 
 /// The command lines after "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<String> {
@@ -41,7 +41,10 @@ fn every_command_is_listed_and_has_an_example() {
         assert!(help.starts_with(listed), "{listed:?} does not begin {help}");
         let (described, _) = help.split_once("\nUsage: ").expect("a usage");
         assert!(described.lines().count() > 2, "no more than the list says: {described}");
-        assert!(help.contains("--format") || ["vectors", "check"].contains(&command), "{help}");
+        assert!(
+            help.contains("--format") || ["vectors", "rtl", "check"].contains(&command),
+            "{help}"
+        );
     }
     assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));
     bench.refused("", &["Usage: blysk"]);
