@@ -1,16 +1,20 @@
 //! `blysk check`: what a designer's own simulation answered, against the vectors it was given.
 
-use std::io::{self, Write};
-use std::path::PathBuf;
+use std::fs::File;
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
 
+use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::datapath::Status;
+use hw_model::design::Design;
 use hw_model::quantise::decimal;
 use vectors::answers::{Failure, Field, Got};
 use vectors::table::hex;
-use vectors::{Verdict, check};
+use vectors::{Verdict, check, verify};
 
 use super::{Out, Outcome};
+use crate::agreement::{Agreement, Disagreement, compare};
 
 /// Judge what your own simulation answered to test vectors.
 ///
@@ -19,6 +23,9 @@ use super::{Out, Outcome};
 /// such as front_end.region. All but the index are bits in hex, with or without 0x.
 ///
 /// Prints PASS (status 0), or FAIL with the first vector that differs and where it departs (status 1).
+///
+/// With --registers it judges what the testbench of `blysk rtl` prints for +registers=N: every register
+/// of every cycle, against the clocked pipeline with the same inputs.
 #[derive(ClapArgs)]
 #[command(after_help = "Example: blysk check --vectors vectors --log dut.csv")]
 pub(super) struct Args {
@@ -26,12 +33,51 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     vectors: PathBuf,
     /// The log of the simulation.
-    #[arg(long, value_name = "FILE")]
-    log: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "registers")]
+    log: Option<PathBuf>,
+    /// A log of every register of every cycle instead; - is standard input.
+    #[arg(long, value_name = "FILE", conflicts_with = "log")]
+    registers: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
-    let verdict = check(&args.vectors, &args.log)?;
+    match (&args.log, &args.registers) {
+        (_, Some(registers)) => check_registers(&args.vectors, registers, out),
+        (Some(log), None) => check_answers(&args.vectors, log, out),
+        // clap asks for one of them.
+        (None, None) => bail!("give --log or --registers"),
+    }
+}
+
+/// Every register of every cycle, for the configuration that the vectors are for.
+fn check_registers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
+    let design = Design::new(verify(vectors)?.manifest.configuration)?;
+    let compared = if log == Path::new("-") {
+        compare(design.datapath(), io::stdin().lock())
+    } else {
+        let file = File::open(log).with_context(|| format!("cannot read {}", log.display()))?;
+        compare(design.datapath(), BufReader::new(file))
+    };
+    match compared {
+        Ok(agreement) => {
+            let Agreement { cycles, registers, results, stalls, bubbles, resets } = agreement;
+            writeln!(
+                out,
+                "{results} results, {stalls} stalls, {bubbles} bubbles, {resets} resets"
+            )?;
+            writeln!(out, "PASS {cycles} cycles, {registers} registers compared")?;
+            Ok(Outcome::Good)
+        }
+        Err(difference @ Disagreement::Differs { .. }) => {
+            writeln!(out, "FAIL {difference}")?;
+            Ok(Outcome::Fails)
+        }
+        Err(error) => Err(error).with_context(|| format!("{}", log.display())),
+    }
+}
+
+fn check_answers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
+    let verdict = check(vectors, log)?;
     let Some(failure) = &verdict.first else {
         writeln!(out, "PASS {} vectors", verdict.vectors)?;
         return Ok(Outcome::Good);

@@ -24,7 +24,7 @@ use super::{Out, Outcome};
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk vectors --preset paper --count 4096 --seed 1 --out vectors\n          \
-                        blysk vectors --config docs/examples/small.json --strategy compact --out fewest"
+                        blysk vectors --config small.json --strategy compact --out fewest"
 )]
 pub(super) struct Args {
     #[command(flatten)]

@@ -116,7 +116,7 @@ impl Dump {
 
     /// Every port and register at every edge after the first, which is the first of the reset.
     fn compare(&self, datapath: &Datapath, model: &Waves) -> Result<u64, Failure> {
-        if model.edges != self.waves.edges || model.timescale != -9 {
+        if picoseconds(model) != picoseconds(&self.waves) {
             return failed("the edges of the two dumps are at different times");
         }
         let mut names: Vec<(String, String)> =
@@ -158,4 +158,10 @@ impl Dump {
         }
         Ok(compared)
     }
+}
+
+/// The times of the edges, whatever the unit of the file.
+fn picoseconds(waves: &Waves) -> Vec<u64> {
+    let scale = 10_u64.pow(u32::try_from(waves.timescale + 12).unwrap_or(0));
+    waves.edges.iter().map(|edge| edge * scale).collect()
 }
