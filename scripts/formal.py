@@ -51,11 +51,16 @@ class Property:
     needs: str = ""  # the constant of the package that says whether the part is there
     parameters: dict = field(default_factory=dict)  # constants of the package, or numbers
     bugs: list[Bug] = field(default_factory=list)
-    carries_word: bool = False  # the request brings its ROM word
+    replaces: list[str] = field(default_factory=list)  # RTL that `proof` has a module in place of
+    carries_word: bool = False  # the request brings its ROM word: rom.sv in place of blysk_rom
+    bits: int = 0  # operands of the stages narrowed to so many
     structural: bool = False  # no solver
 
 
 ROUNDING_BUG = Bug("rounding left out", "blysk_round_shift.sv", "assign added = HALF;", "assign added = '0;")
+
+
+WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_at_3)", ".variable_i(v_at_2)")
 
 
 def stage(number, multiplicand, variable, addend, needs, subtract):
@@ -106,9 +111,13 @@ ALL = [
     stage(3, "T2", "V", "C0", "HAS_POLYNOMIAL", "CENTRED"),
     stage(0, "TAIL_B", "X", "TAIL_A", "HAS_TAIL", 1),
     Property(
-        "pipeline", "blysk", RTL, ["rom.sv", "fields.sv", "trail.sv", "multiply_add.sv", "pipeline.svh"],
-        inside="blysk", carries_word=True,
-        bugs=[Bug("v of another result", "blysk.sv", ".variable_i(v_at_3)", ".variable_i(v_at_2)")],
+        "pipeline", "blysk", RTL, ["rom.sv", "fields.sv", "trail.sv", "stand_in.sv", "pipeline.svh"],
+        inside="blysk", needs="HAS_POLYNOMIAL", replaces=["blysk_stage"], carries_word=True, bugs=[WRONG_V],
+    ),
+    Property(
+        "pipeline, 4 bits", "blysk", RTL,
+        ["rom.sv", "fields.sv", "trail.sv", "multiply_add.sv", "line.sv", "pipeline.svh"],
+        inside="blysk", needs="HAS_POLYNOMIAL", carries_word=True, bits=4, bugs=[WRONG_V],
     ),
     Property(
         "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
@@ -152,9 +161,8 @@ class Job:
         if bug and bug.parameter:
             self.parameters[bug.parameter] -= bug.less
         self.word = package["ROM_WIDTH"] + 1
-        # Deep enough for a result to come out, and stall.
-        self.depth = package["RANKS"] + 4 if prop.inside else 4
-        if prop.name=="pipeline" and not bug: self.depth=4
+        # A proof needs no more than its induction; a bug shows once a result has come out, and stalled.
+        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3
         name = f"{prop.name} {bug.name}" if bug else prop.name
         self.place = ROOT / "target/formal" / preset / name.replace(" ", "_")
 
@@ -162,10 +170,8 @@ class Job:
         """Copies the sources; gives their names in order."""
         shutil.rmtree(self.place, ignore_errors=True)
         self.place.mkdir(parents=True)
-        names = ["blysk_pkg.sv"]
-        for name in self.prop.files:
-            if f"{name.removeprefix('blysk_')}.sv" not in self.prop.proof or name != "blysk_rom":
-                names.append(f"{name}.sv")
+        replaced = self.prop.replaces + ["blysk_rom"] * self.prop.carries_word
+        names = ["blysk_pkg.sv", *(f"{name}.sv" for name in self.prop.files if name not in replaced)]
         for name in [*names, "rom.mem"]:
             shutil.copy(self.rtl / name, self.place)
         for name in self.prop.proof:
@@ -173,13 +179,26 @@ class Job:
         if self.prop.inside:
             included = next(name for name in self.prop.proof if name.endswith(".svh"))
             replace_once(self.place / f"{self.prop.inside}.sv", "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
-        if self.prop.carries_word:
-            package = self.place / "blysk_pkg.sv"
-            text = re.sub(r"(int ADDRESS_WIDTH) = \d+;", rf"\1 = {self.word};", package.read_text())
-            package.write_text(text)
+        package = self.place / "blysk_pkg.sv"
+        package.write_text(self.package(package.read_text()))
         if self.bug and self.bug.file:
             replace_once(self.place / self.bug.file, self.bug.old, self.bug.new)
         return names[:1] + [name for name in self.prop.proof if name.endswith(".sv")] + names[1:]
+
+    def package(self, text):
+        """The package with the address as wide as a word, or with narrow stages, where the property wants it."""
+        instead = {"ADDRESS_WIDTH": self.word} if self.prop.carries_word else {}
+        bits = self.prop.bits
+        if bits:
+            widths = constants(text)
+            for name in ["C3", "C2", "C1", "V", "T1", "T2", "T3"]:
+                instead[f"{name}_WIDTH"] = min(widths[f"{name}_WIDTH"], bits)
+            for t in ["T1", "T2", "T3"]:
+                instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}
+                instead |= {f"{t}_DROP": bits - 2, f"{t}_SUM_WIDTH": 2 * bits + 4}
+        for name, value in instead.items():
+            text = re.sub(rf"(int {name}) = -?\d+;", rf"\1 = {value};", text)
+        return text
 
     def script(self, names):
         parameters = "".join(f" -chparam {name} {value}" for name, value in self.parameters.items())

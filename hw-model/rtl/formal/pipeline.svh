@@ -6,13 +6,13 @@
 // computed, and stay so). At the last rank before the clamp, t3 must be the three lines nested, a
 // function of the coefficients and v alone.
 `define LINE(MULTIPLICAND, ADDEND, T) \
-  multiply_add #( \
+  line #( \
     .MULTIPLICAND_WIDTH(blysk_pkg::MULTIPLICAND``_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::MULTIPLICAND``_SIGNED), \
-    .VARIABLE_WIDTH(blysk_pkg::V_WIDTH), \
+    .VARIABLE_WIDTH(blysk_pkg::V_WIDTH), .T_WIDTH(blysk_pkg::T``_WIDTH), \
     .ADDEND_WIDTH(blysk_pkg::ADDEND``_WIDTH), .ADDEND_SIGNED(blysk_pkg::ADDEND``_SIGNED), \
     .SUBTRACT(blysk_pkg::CENTRED), .PRODUCT_UP(blysk_pkg::T``_PRODUCT_UP), \
     .ADDEND_UP(blysk_pkg::T``_ADDEND_UP), .RESULT_UP(blysk_pkg::T``_RESULT_UP), .DROP(blysk_pkg::T``_DROP), \
-    .ROUNDING(blysk_pkg::ROUNDING), .WIDE(blysk_pkg::T``_SUM_WIDTH + 2))
+    .ROUNDING(blysk_pkg::ROUNDING), .SUM_WIDTH(blysk_pkg::T``_SUM_WIDTH))
 
   localparam int LAST   = blysk_pkg::RANKS - 2;
   localparam int REGION = blysk_pkg::REGION_WIDTH;
@@ -52,13 +52,13 @@
     logic [LAST*V-1:0]      vs;
     logic [(LAST-1)*T1-1:0] t1s;
     logic [(LAST-2)*T2-1:0] t2s;
-    trail #(.WIDTH(C3), .RANKS(LAST)) c3_trail (
+    trail #(.WIDTH(C3), .RANKS(LAST), .STORED(blysk_pkg::C3_STORED)) c3_trail (
       .clk_i, .load_i(load[LAST:1]), .value_i(c3), .trail_o(c3s));
-    trail #(.WIDTH(C2), .RANKS(LAST)) c2_trail (
+    trail #(.WIDTH(C2), .RANKS(LAST), .STORED(blysk_pkg::C2_STORED)) c2_trail (
       .clk_i, .load_i(load[LAST:1]), .value_i(c2), .trail_o(c2s));
-    trail #(.WIDTH(C1), .RANKS(LAST)) c1_trail (
+    trail #(.WIDTH(C1), .RANKS(LAST), .STORED(blysk_pkg::C1_STORED)) c1_trail (
       .clk_i, .load_i(load[LAST:1]), .value_i(c1), .trail_o(c1s));
-    trail #(.WIDTH(C0), .RANKS(LAST)) c0_trail (
+    trail #(.WIDTH(C0), .RANKS(LAST), .STORED(blysk_pkg::C0_STORED)) c0_trail (
       .clk_i, .load_i(load[LAST:1]), .value_i(c0), .trail_o(c0s));
     trail #(.WIDTH(V), .RANKS(LAST - 1)) v_trail (
       .clk_i, .load_i(load[LAST:2]), .value_i(v), .trail_o(vs));
@@ -81,18 +81,18 @@
       assign along_v  = vs[(rank-1)*V+:V];
       assign along_t1 = t1s[(rank-2)*T1+:T1];
 
-      logic signed [blysk_pkg::T1_SUM_WIDTH+1:0] line1;
+      logic [T1-1:0] line1;
       `LINE(C3, C2, T1) first (
-        .multiplicand_i(along_c3), .variable_i(along_v), .addend_i(along_c2), .exact_o(), .rounded_o(line1));
-      always_comb if (has_result[rank]) assert (along_t1 == T1'(line1));
+        .multiplicand_i(along_c3), .variable_i(along_v), .addend_i(along_c2), .t_o(line1));
+      always_comb if (has_result[rank]) assert (along_t1 == line1);
 
       if (rank >= 3) begin : from_3
         logic [T2-1:0] along_t2;
         assign along_t2 = t2s[(rank-3)*T2+:T2];
-        logic signed [blysk_pkg::T2_SUM_WIDTH+1:0] line2;
+        logic [T2-1:0] line2;
         `LINE(T1, C1, T2) second (
-          .multiplicand_i(along_t1), .variable_i(along_v), .addend_i(along_c1), .exact_o(), .rounded_o(line2));
-        always_comb if (has_result[rank]) assert (along_t2 == T2'(line2));
+          .multiplicand_i(along_t1), .variable_i(along_v), .addend_i(along_c1), .t_o(line2));
+        always_comb if (has_result[rank]) assert (along_t2 == line2);
 
         if (rank >= 4) begin : from_4
           logic [T3-1:0] along_t3;
@@ -106,20 +106,20 @@
               .clk_i, .load_i(load[rank:5]), .value_i(polynomial.t3), .trail_o(t3s));
             assign along_t3 = t3s[(rank-4)*T3+:T3];
           end
-          logic signed [blysk_pkg::T3_SUM_WIDTH+1:0] line3;
+          logic [T3-1:0] line3;
           `LINE(T2, C0, T3) third (
-            .multiplicand_i(along_t2), .variable_i(along_v), .addend_i(along_c0), .exact_o(), .rounded_o(line3));
-          always_comb if (has_result[rank]) assert (along_t3 == T3'(line3));
+            .multiplicand_i(along_t2), .variable_i(along_v), .addend_i(along_c0), .t_o(line3));
+          always_comb if (has_result[rank]) assert (along_t3 == line3);
 
           if (rank == LAST) begin : whole
             // The three lines nested.
-            logic signed [blysk_pkg::T2_SUM_WIDTH+1:0] nested2;
-            logic signed [blysk_pkg::T3_SUM_WIDTH+1:0] nested3;
+            logic [T2-1:0] nested2;
+            logic [T3-1:0] nested3;
             `LINE(T1, C1, T2) second (
-              .multiplicand_i(T1'(line1)), .variable_i(along_v), .addend_i(along_c1), .exact_o(), .rounded_o(nested2));
+              .multiplicand_i(line1), .variable_i(along_v), .addend_i(along_c1), .t_o(nested2));
             `LINE(T2, C0, T3) third (
-              .multiplicand_i(T2'(nested2)), .variable_i(along_v), .addend_i(along_c0), .exact_o(), .rounded_o(nested3));
-            always_comb if (has_result[rank]) assert (t3_waited == T3'(nested3));
+              .multiplicand_i(nested2), .variable_i(along_v), .addend_i(along_c0), .t_o(nested3));
+            always_comb if (has_result[rank]) assert (t3_waited == nested3);
           end
         end
       end

@@ -48,10 +48,10 @@
       // What the rank before had, as it was when this one loaded.
       logic [2*WHOLE-1:0]      product_before;
       logic [2*DIGIT_BITS-1:0] quotient_before;
-      trail #(.WIDTH(WHOLE), .RANKS(1)) product_trail (
+      trail #(.WIDTH(WHOLE), .RANKS(1), .STORED(BEFORE)) product_trail (
         .clk_i, .load_i(load_i[step]),
         .value_i(products[(step-1)*WHOLE+:WHOLE]), .trail_o(product_before));
-      trail #(.WIDTH(DIGIT_BITS), .RANKS(1)) quotient_trail (
+      trail #(.WIDTH(DIGIT_BITS), .RANKS(1), .STORED(BEFORE)) quotient_trail (
         .clk_i, .load_i(load_i[step]),
         .value_i(quotients[(step-1)*DIGIT_BITS+:DIGIT_BITS]), .trail_o(quotient_before));
       assign products[step*WHOLE+:WHOLE] =
@@ -64,6 +64,7 @@
       if (has_result[step]) begin
         assert (product + WHOLE'(here_remainder) == dividend_here >> LEFT);
         assert (here_remainder < along_divisor);
+        assert (quotient >> DONE == '0);
         assert (here_digits == (DIGIT_BITS'(dividend_here << DONE) | quotient));
       end
     end

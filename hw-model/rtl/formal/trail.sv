@@ -1,12 +1,13 @@
 // A value at every rank it passes, side by side: value_i itself first.
 //
 // Its registers have no initial value, as those of blysk_delay: so Yosys merges the two where they
-// hold the same, and no invariant has to say that they do.
+// hold the same, and no invariant has to say that they do. A constant (STORED = 0) has no registers.
 `default_nettype none
 
 module trail #(
-  parameter int WIDTH = 1,
-  parameter int RANKS = 1
+  parameter int WIDTH  = 1,
+  parameter int RANKS  = 1,
+  parameter int STORED = 1
 ) (
   input  logic                       clk_i,
   input  logic [RANKS-1:0]           load_i,
@@ -18,8 +19,12 @@ module trail #(
   assign trail_o = {values, value_i};
 
   for (genvar rank = 0; rank < RANKS; rank++) begin : register
-    always_ff @(posedge clk_i) begin
-      if (load_i[rank]) values[rank*WIDTH+:WIDTH] <= trail_o[rank*WIDTH+:WIDTH];
+    if (STORED != 0) begin : carried
+      always_ff @(posedge clk_i) begin
+        if (load_i[rank]) values[rank*WIDTH+:WIDTH] <= trail_o[rank*WIDTH+:WIDTH];
+      end
+    end else begin : constant
+      assign values[rank*WIDTH+:WIDTH] = value_i;
     end
   end
 
