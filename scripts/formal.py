@@ -125,8 +125,9 @@ ALL = [
         bugs=[Bug("equal not subtracted", "blysk_tail_digits.sv", "goes        = doubled >= ", "goes        = doubled > ")],
     ),
     Property(
-        "division", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
-        ["trail.sv", "multiply_add.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL",
+        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
+        ["trail.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL", bits=12,
+        bugs=[Bug("digits not moved up", "blysk_tail_digits.sv", "(digits_d << 1) |", "digits_d |")],
     ),
     Property(
         "clamp", "clamp_proof", ["blysk_round_shift", "blysk_clamp"], ["multiply_add.sv", "clamp.sv"],
@@ -188,17 +189,24 @@ class Job:
     def package(self, text):
         """The package with the address as wide as a word, or with narrow stages, where the property wants it."""
         instead = {"ADDRESS_WIDTH": self.word} if self.prop.carries_word else {}
-        bits = self.prop.bits
-        if bits:
-            widths = constants(text)
-            for name in ["C3", "C2", "C1", "V", "T1", "T2", "T3"]:
-                instead[f"{name}_WIDTH"] = min(widths[f"{name}_WIDTH"], bits)
-            for t in ["T1", "T2", "T3"]:
-                instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}
-                instead |= {f"{t}_DROP": bits - 2, f"{t}_SUM_WIDTH": 2 * bits + 4}
+        if self.prop.bits:
+            instead |= self.narrow(constants(text), self.prop.bits)
         for name, value in instead.items():
             text = re.sub(rf"(int {name}) = -?\d+;", rf"\1 = {value};", text)
         return text
+
+    @staticmethod
+    def narrow(widths, bits):
+        """Constants with operands of at most `bits`, and with places that go with them."""
+        operands = ["C3", "C2", "C1", "V", "T1", "T2", "T3", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS"]
+        instead = {f"{name}_WIDTH": min(widths[f"{name}_WIDTH"], bits) for name in operands}
+        for t in ["T1", "T2", "T3", "DIVISOR"]:
+            instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}
+            instead |= {f"{t}_DROP": bits - 2, f"{t}_SUM_WIDTH": 2 * bits + 4}
+        if widths["HAS_TAIL"]:
+            per_stage = widths["QUOTIENT_BITS_PER_STAGE"]
+            instead |= {"DIVIDEND_UP": bits // 2, "DIGIT_STAGES": -(-instead["DIGITS_WIDTH"] // per_stage)}
+        return instead
 
     def script(self, names):
         parameters = "".join(f" -chparam {name} {value}" for name, value in self.parameters.items())
