@@ -3,10 +3,12 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all setup test bench exhaustive clean help
+.PHONY: all setup test rtl bench exhaustive mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
+# Presets for exhaustive and mutants; none named means those they choose themselves.
+PRESETS ?=
 BLYSK = $(CARGO) run --release --locked --quiet --bin blysk --
 VENV = target/venv
 
@@ -34,21 +36,29 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup
 
-test: setup ## everything that is checked: format, spelling, lints, documentation, tests
+test: setup ## everything that is checked: format, spelling, lints, documentation, tests, RTL
 	$(CARGO) fmt --all --check
 	$(VENV)/bin/typos
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) test --workspace --locked --profile release-checked
+	@$(MAKE) --no-print-directory rtl
+
+rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
+	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
 
 bench: ## measure speed
 	$(CARGO) bench --package sim --bench throughput --locked
 	@echo "Every representable x of every exponent of preset paper:"
 	@time $(BLYSK) report --preset paper --exhaustive
 
-exhaustive: ## measure every preset at every representable x; takes long
+exhaustive: setup ## every representable x: the error of every preset, and the RTL of two; takes long
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \
 	echo "Results are in $(RESULTS)/exhaustive/."
+	$(CARGO) run --locked --quiet --release --package blysk-tests --bin exhaustive -- $(PRESETS)
+
+mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
+	$(CARGO) run --locked --quiet --release --package blysk-tests --bin mutants -- $(PRESETS)
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

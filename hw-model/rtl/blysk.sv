@@ -121,7 +121,8 @@ module blysk #(
       .ADDEND_WIDTH(blysk_pkg::C2_WIDTH), .ADDEND_SIGNED(blysk_pkg::C2_SIGNED),
       .T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
       .PRODUCT_UP(blysk_pkg::T1_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T1_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T1_RESULT_UP), .DROP(blysk_pkg::T1_DROP), .SUM_WIDTH(blysk_pkg::T1_SUM_WIDTH), .ROUNDING(blysk_pkg::ROUNDING)
+      .RESULT_UP(blysk_pkg::T1_RESULT_UP), .DROP(blysk_pkg::T1_DROP),
+      .SUM_WIDTH(blysk_pkg::T1_SUM_WIDTH), .ROUNDING(blysk_pkg::T1_ROUNDING)
     ) stage1 (
       .clk_i, .load_i(load[2]),
       .multiplicand_i(c3_at_1), .variable_i(v), .addend_i(c2_at_1), .t_o(t1)
@@ -133,7 +134,8 @@ module blysk #(
       .ADDEND_WIDTH(blysk_pkg::C1_WIDTH), .ADDEND_SIGNED(blysk_pkg::C1_SIGNED),
       .T_WIDTH(blysk_pkg::T2_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
       .PRODUCT_UP(blysk_pkg::T2_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T2_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T2_RESULT_UP), .DROP(blysk_pkg::T2_DROP), .SUM_WIDTH(blysk_pkg::T2_SUM_WIDTH), .ROUNDING(blysk_pkg::ROUNDING)
+      .RESULT_UP(blysk_pkg::T2_RESULT_UP), .DROP(blysk_pkg::T2_DROP),
+      .SUM_WIDTH(blysk_pkg::T2_SUM_WIDTH), .ROUNDING(blysk_pkg::T2_ROUNDING)
     ) stage2 (
       .clk_i, .load_i(load[3]),
       .multiplicand_i(t1), .variable_i(v_at_2), .addend_i(c1_at_2), .t_o(t2)
@@ -145,7 +147,8 @@ module blysk #(
       .ADDEND_WIDTH(blysk_pkg::C0_WIDTH), .ADDEND_SIGNED(blysk_pkg::C0_SIGNED),
       .T_WIDTH(blysk_pkg::T3_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
       .PRODUCT_UP(blysk_pkg::T3_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T3_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T3_RESULT_UP), .DROP(blysk_pkg::T3_DROP), .SUM_WIDTH(blysk_pkg::T3_SUM_WIDTH), .ROUNDING(blysk_pkg::ROUNDING)
+      .RESULT_UP(blysk_pkg::T3_RESULT_UP), .DROP(blysk_pkg::T3_DROP),
+      .SUM_WIDTH(blysk_pkg::T3_SUM_WIDTH), .ROUNDING(blysk_pkg::T3_ROUNDING)
     ) stage3 (
       .clk_i, .load_i(load[4]),
       .multiplicand_i(t2), .variable_i(v_at_3), .addend_i(c0_at_3), .t_o(t3)

@@ -57,7 +57,7 @@ module blysk_clamp (
     logic [blysk_pkg::DIGITS_WIDTH-1:0] rounded;
     assign wide = {2'b00, digits_i, |remainder_i};
     blysk_round_shift #(
-      .IN_WIDTH(WIDE), .DROP(GUARD_BITS), .OUT_WIDTH(blysk_pkg::DIGITS_WIDTH), .MODE(blysk_pkg::ROUNDING)
+      .IN_WIDTH(WIDE), .DROP(GUARD_BITS), .OUT_WIDTH(blysk_pkg::DIGITS_WIDTH), .MODE(blysk_pkg::QUOTIENT_ROUNDING)
     ) round_quotient (
       .value_i(wide), .rounded_o(rounded)
     );

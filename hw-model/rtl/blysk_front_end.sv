@@ -83,7 +83,7 @@ module blysk_front_end (
           ? (S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION) - S_WIDTH'(x) : '0;
       assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift_i;
       blysk_round_shift #(
-        .IN_WIDTH(U_WIDTH), .DROP(blysk_pkg::U_DROP), .OUT_WIDTH(blysk_pkg::V_WIDTH), .MODE(blysk_pkg::ROUNDING)
+        .IN_WIDTH(U_WIDTH), .DROP(blysk_pkg::U_DROP), .OUT_WIDTH(blysk_pkg::V_WIDTH), .MODE(blysk_pkg::U_ROUNDING)
       ) round_u (
         .value_i(u), .rounded_o(v_d)
       );

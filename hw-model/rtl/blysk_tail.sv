@@ -37,7 +37,7 @@ module blysk_tail (
     .T_WIDTH(blysk_pkg::DIVISOR_WIDTH), .SUBTRACT(1),
     .PRODUCT_UP(blysk_pkg::DIVISOR_PRODUCT_UP), .ADDEND_UP(blysk_pkg::DIVISOR_ADDEND_UP),
     .RESULT_UP(blysk_pkg::DIVISOR_RESULT_UP), .DROP(blysk_pkg::DIVISOR_DROP),
-    .SUM_WIDTH(blysk_pkg::DIVISOR_SUM_WIDTH), .ROUNDING(blysk_pkg::ROUNDING)
+    .SUM_WIDTH(blysk_pkg::DIVISOR_SUM_WIDTH), .ROUNDING(blysk_pkg::DIVISOR_ROUNDING)
   ) divisor_stage (
     .clk_i, .load_i(load_i[0]),
     .multiplicand_i(b_i), .variable_i(x_i), .addend_i(a_i), .t_o(divisor[DIVISOR_BITS-1:0])

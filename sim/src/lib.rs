@@ -1,5 +1,6 @@
 //! The clocked highlight pipeline, its analyses, and the `blysk` command.
 
+pub mod agreement;
 pub mod analysis;
 pub mod cmd;
 pub mod pipeline;

@@ -255,7 +255,7 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
             .clamp(real.epicentre, 1.0),
     };
     if config.cut == Cut::Minimum && cubic.centred.value_at_s(s) < config.output.ulp() / 2.0 {
-        return cut_at_nothing(design, real, got);
+        return cut_at_nothing(design, real, got, s);
     }
     // The least integer that is not below (1 − s)·2^fraction: minus the floor of minus it.
     let below = Exact::of_f64(s) - Exact::of_bits(1, 0);
@@ -268,8 +268,8 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
 }
 
 /// A polynomial that falls to half an output ulp is cut there: at the cut it is that much or more, at
-/// the next x below it is not. (The slope times a few f64 ulp is what the arithmetic here may be off.)
-fn cut_at_nothing(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
+/// the next x below it is not, unless that lies beyond the lowest s already. (The slope times a few f64 ulp is what the arithmetic here may be off.)
+fn cut_at_nothing(design: &Design, real: &RealRow, got: i64, lowest: f64) -> Result<(), Complaint> {
     let config = design.config();
     let half = config.output.ulp() / 2.0;
     let value = |x: i64| {
@@ -278,7 +278,8 @@ fn cut_at_nothing(design: &Design, real: &RealRow, got: i64) -> Result<(), Compl
         (real.polynomial.map_or(0.0, |cubic| cubic.centred.value_at_s(s)), off)
     };
     let ((at, slack), (below, _)) = (value(got), value(got - 1));
-    if at < half - slack || below > half + slack {
+    let next_s = 1.0 - (got - 1) as f64 * config.input.ulp();
+    if at < half - slack || (next_s <= lowest && below > half + slack) {
         let text = format!(
             "n = {}: the cut {got} is not where the polynomial has fallen to {half}: {at} there, \
              {below} below it",

@@ -1,7 +1,10 @@
 //! Shared helpers of the integration tests.
 
+pub mod answers;
 pub mod cli;
 pub mod comparison;
 pub mod configurations;
 pub mod naive;
 pub mod reference;
+pub mod rtl;
+pub mod waves;

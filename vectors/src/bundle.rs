@@ -10,10 +10,15 @@ use thiserror::Error;
 
 use crate::case::{Sample, Strategy};
 use crate::checksum::{Checked, Checksum};
+use crate::fault_table::write_faults;
+use crate::faults::compact::{MOST_INPUTS, inputs};
+use crate::faults::{Compact, OneByOne, Workers};
 use crate::manifest::{
-    Counts, EXPECTED, FORMAT_VERSION, Hardware, MANIFEST, Manifest, ROM, STIMULUS, TABLE, Words,
+    Counts, EXPECTED, FAULTS, FORMAT_VERSION, FaultCounts, Hardware, MANIFEST, Manifest,
+    NEGATIVE_CONTROL, ROM, STIMULUS, TABLE, Words,
 };
 use crate::memory_file::{Header, write_header, write_word};
+use crate::negative_control::{Flip, NegativeControl};
 use crate::packing::WordLayout;
 use crate::stimulus::Stimulus;
 use crate::table::TableWriter;
@@ -40,6 +45,12 @@ pub enum BundleError {
         /// How many vectors it would give.
         count: u128,
     },
+    /// More inputs than a search can go through.
+    #[error(
+        "compact would look at {0} inputs several times, more than {MOST_INPUTS}; use a narrower input \
+         format or fewer exponents, or another strategy"
+    )]
+    TooManyInputs(u128),
     /// The files could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -64,11 +75,11 @@ pub struct Bundle<'a> {
 }
 
 impl<'a> Bundle<'a> {
-    /// Chooses `count` cases ([`Strategy`] says how; the exhaustive one does not ask the count).
-    /// `command` is what the files say they were made by.
+    /// Chooses `count` cases ([`Strategy`] says how; two of them do not ask the count). `command` is
+    /// what the files say they were made by.
     ///
     /// # Errors
-    /// When there would be no vectors, or more than [`MAX_VECTORS`].
+    /// When there would be no vectors, or more than [`MAX_VECTORS`]; when a search would have no end.
     pub fn new(
         design: &'a Design,
         strategy: Strategy,
@@ -76,18 +87,36 @@ impl<'a> Bundle<'a> {
         seed: u64,
         command: &str,
     ) -> Result<Self, BundleError> {
-        if count == 0 && strategy != Strategy::Exhaustive {
+        Self::with_workers(design, strategy, count, seed, command, &OneByOne)
+    }
+
+    /// The same; `workers` do what takes long, which is the search of [`Strategy::Compact`].
+    ///
+    /// # Errors
+    /// As [`Bundle::new`].
+    pub fn with_workers(
+        design: &'a Design,
+        strategy: Strategy,
+        count: u64,
+        seed: u64,
+        command: &str,
+        workers: &impl Workers,
+    ) -> Result<Self, BundleError> {
+        if count == 0 && !strategy.counts_itself() {
             return Err(BundleError::NoVectors);
         }
-        if count > MAX_VECTORS && strategy != Strategy::Exhaustive {
+        if count > MAX_VECTORS && !strategy.counts_itself() {
             return Err(BundleError::TooMany { strategy, count: count.into() });
         }
-        let stimulus = Stimulus::new(design, strategy, count, seed);
+        if strategy == Strategy::Compact && inputs(design) > MOST_INPUTS {
+            return Err(BundleError::TooManyInputs(inputs(design)));
+        }
+        let stimulus = Stimulus::with_workers(design, strategy, count, seed, workers);
         let len = stimulus.len();
         if len > u128::from(MAX_VECTORS) {
             return Err(BundleError::TooMany { strategy, count: len });
         }
-        let requested = if strategy == Strategy::Exhaustive { len as u64 } else { count };
+        let requested = if strategy.counts_itself() { len as u64 } else { count };
         Ok(Self { design, stimulus, strategy, requested, seed, command: command.to_owned() })
     }
 
@@ -95,6 +124,12 @@ impl<'a> Bundle<'a> {
     #[must_use]
     pub const fn design(&self) -> &'a Design {
         self.design
+    }
+
+    /// What the search of [`Strategy::Compact`] found; none with the other strategies.
+    #[must_use]
+    pub const fn compact(&self) -> Option<&Compact> {
+        self.stimulus.compact()
     }
 
     /// The cases, in the order of the files.
@@ -109,15 +144,26 @@ impl<'a> Bundle<'a> {
         self.stimulus.len() as u64
     }
 
-    /// What a reader should know about the choice: corners left out, fewer cases than asked for.
+    /// What a reader should know about the choice: what it kills, corners left out, fewer cases than
+    /// asked for.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        let corners = self.stimulus.corners();
-        let (taken, available) = (corners.samples().len() as u64, corners.available());
+        let (corners, targets) = (self.stimulus.corners(), self.stimulus.targets());
+        let (present, available) = (corners.present(), corners.available());
         let mut notes = Vec::new();
-        if taken < available {
+        if targets.faults() > 0 {
             notes.push(format!(
-                "{taken} of the design's {available} corners are here, shared over the ROM's rows; \
+                "targets kill {} of the {} faults that a ROM row can have (a field one unit off)",
+                targets.killed(),
+                targets.faults()
+            ));
+        }
+        if let Some(compact) = self.stimulus.compact() {
+            notes.extend(found(compact));
+        }
+        if present < available {
+            notes.push(format!(
+                "{present} of the design's {available} corners are here, shared over the ROM's rows; \
                  strategy corners with a count of {available} has them all"
             ));
         }
@@ -130,7 +176,7 @@ impl<'a> Bundle<'a> {
         notes
     }
 
-    /// Writes the five files into `directory`, which is made where it does not exist: all of them, or
+    /// Writes the files into `directory`, which is made where it does not exist: all of them, or
     /// none.
     ///
     /// # Errors
@@ -142,7 +188,7 @@ impl<'a> Bundle<'a> {
         Ok(manifest)
     }
 
-    /// Writes the five files into a set that the caller commits, perhaps with files of its own.
+    /// Writes the files into a set that the caller commits, perhaps with files of its own.
     ///
     /// # Errors
     /// When a file cannot be written.
@@ -150,8 +196,11 @@ impl<'a> Bundle<'a> {
         let words = Words::of(self.design.datapath());
         let mut files = BTreeMap::new();
         files.insert(ROM.to_owned(), self.stage_rom(set, &words.rom)?);
-        let kinds = self.stage_vectors(set, &words, &mut files)?;
-        let manifest = self.manifest(words, files, kinds);
+        if let Some(compact) = self.stimulus.compact() {
+            files.insert(FAULTS.to_owned(), stage_faults(set, compact)?);
+        }
+        let (kinds, control) = self.stage_vectors(set, &words, &mut files)?;
+        let manifest = self.manifest(words, files, kinds, control);
         set.write(MANIFEST, manifest.to_json())?;
         Ok(manifest)
     }
@@ -171,30 +220,47 @@ impl<'a> Bundle<'a> {
         set: &mut OutputSet,
         words: &Words,
         files: &mut BTreeMap<String, Checksum>,
-    ) -> Result<BTreeMap<String, u64>, OutputError> {
-        let count = self.vector_count();
-        let mut stimulus = Begun::new(set, STIMULUS)?;
-        stimulus.header("stimulus", &words.stimulus, count, &self.command)?;
-        let mut expected = Begun::new(set, EXPECTED)?;
-        expected.header("expected answers", &words.expected, count, &self.command)?;
+    ) -> Result<(BTreeMap<String, u64>, NegativeControl), OutputError> {
+        let begin = |set: &mut OutputSet, name, title, layout| {
+            let mut file = Begun::new(set, name)?;
+            file.header(title, layout, self.vector_count(), &self.command)?;
+            Ok::<_, OutputError>(file)
+        };
+        let mut stimulus = begin(set, STIMULUS, "stimulus", &words.stimulus)?;
+        let mut expected = begin(set, EXPECTED, "expected answers", &words.expected)?;
+        let mut control =
+            begin(set, NEGATIVE_CONTROL, "expected answers, one of them wrong", &words.expected)?;
         let csv = Begun::new(set, TABLE)?;
         let in_table = |cause| OutputError::Write { path: set.directory().join(TABLE), cause };
         let mut table = TableWriter::new(self.design, csv.0).map_err(in_table)?;
 
+        let datapath = self.design.datapath();
+        let flip = Flip::draw(datapath, self.vector_count(), self.seed);
+        let mut wrong = flip.record(&words.expected, 0);
         let mut kinds = BTreeMap::new();
         for (index, sample) in (0..).zip(self.samples()) {
-            let passage = self.design.datapath().passage(sample.case.address, sample.case.x);
+            let passage = datapath.passage(sample.case.address, sample.case.x);
             let address = i64::from(sample.case.address);
             stimulus.word(&words.stimulus, &words.stimulus.pack(&[address, sample.case.x]))?;
-            expected.word(&words.expected, &words.expected.pack(&answer(&passage)))?;
+            let word = words.expected.pack(&answer(&passage));
+            expected.word(&words.expected, &word)?;
+            if index == flip.vector {
+                wrong = flip.record(&words.expected, word);
+                control.word(&words.expected, &flip.corrupt(word))?;
+            } else {
+                control.word(&words.expected, &word)?;
+            }
             table.write(index, &sample, &passage).map_err(in_table)?;
             *kinds.entry(sample.kind).or_insert(0) += 1;
         }
         let csv = Begun(table.finish().map_err(in_table)?);
-        for (name, file) in [(STIMULUS, stimulus), (EXPECTED, expected), (TABLE, csv)] {
+        let written =
+            [(STIMULUS, stimulus), (EXPECTED, expected), (NEGATIVE_CONTROL, control), (TABLE, csv)];
+        for (name, file) in written {
             files.insert(name.to_owned(), file.keep(set)?);
         }
-        Ok(kinds.into_iter().map(|(kind, count)| (kind.to_string(), count)).collect())
+        let kinds = kinds.into_iter().map(|(kind, count)| (kind.to_string(), count));
+        Ok((kinds.collect(), wrong))
     }
 
     fn manifest(
@@ -202,6 +268,7 @@ impl<'a> Bundle<'a> {
         words: Words,
         files: BTreeMap<String, Checksum>,
         kinds: BTreeMap<String, u64>,
+        negative_control: NegativeControl,
     ) -> Manifest {
         Manifest {
             format_version: FORMAT_VERSION,
@@ -217,12 +284,35 @@ impl<'a> Bundle<'a> {
                 kinds,
             },
             notes: self.notes(),
+            faults: self.stimulus.compact().map(FaultCounts::of),
+            negative_control,
             hardware: Hardware::of(self.design.datapath()),
             words,
             files,
             configuration: self.design.config().clone(),
         }
     }
+}
+
+/// What the search found, in words.
+fn found(compact: &Compact) -> [String; 2] {
+    let FaultCounts { faults, equivalent, lower_bound, inputs } = FaultCounts::of(compact);
+    let vectors = compact.samples().len();
+    let names: Vec<String> = compact.equivalent().map(|fault| fault.to_string()).collect();
+    let which = if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) };
+    [
+        format!(
+            "{vectors} vectors kill {} of {faults} faults; no set of fewer than {lower_bound} does",
+            faults - equivalent
+        ),
+        format!("{equivalent} are equivalent, no input of {inputs} tells them apart{which}"),
+    ]
+}
+
+fn stage_faults(set: &mut OutputSet, compact: &Compact) -> Result<Checksum, OutputError> {
+    let file = Begun::new(set, FAULTS)?;
+    let in_faults = |cause| OutputError::Write { path: set.directory().join(FAULTS), cause };
+    Begun(write_faults(file.0, compact.verdicts()).map_err(in_faults)?).keep(set)
 }
 
 /// Status and intensity of the last rank.
@@ -265,8 +355,8 @@ impl Begun {
     }
 }
 
-/// The files of a bundle in `directory`, in the order in which they are written.
+/// The files that every bundle has, in `directory`, in the order in which they are written.
 #[must_use]
-pub fn file_paths(directory: &Path) -> [PathBuf; 5] {
-    [ROM, STIMULUS, EXPECTED, TABLE, MANIFEST].map(|name| directory.join(name))
+pub fn file_paths(directory: &Path) -> [PathBuf; 6] {
+    [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE, MANIFEST].map(|name| directory.join(name))
 }

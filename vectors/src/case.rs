@@ -48,10 +48,12 @@ pub struct Sample {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
-    /// Corners for three quarters of the count (for as many rows as possible, where that is less
-    /// than one a row), an even grid for an eighth, seeded random for the rest.
+    /// Targets first ([`crate::stimulus::targets`]), and corners until three quarters of the count are
+    /// full, an even grid for an eighth, seeded random for the rest.
     #[default]
     Mixed,
+    /// As few as kill every fault that can be killed ([`crate::faults::compact`]); the count is not asked.
+    Compact,
     /// Where hardware goes wrong: ends, the cut, ties, extremes ([`crate::stimulus::corners`]).
     Corners,
     /// Evenly spaced over [0, 1] ([`crate::stimulus::even`]).
@@ -64,14 +66,21 @@ pub enum Strategy {
 
 impl Strategy {
     /// Every strategy, the default first.
-    pub const ALL: [Self; 5] =
-        [Self::Mixed, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
+    pub const ALL: [Self; 6] =
+        [Self::Mixed, Self::Compact, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
+
+    /// True where the strategy itself says how many cases there are.
+    #[must_use]
+    pub const fn counts_itself(self) -> bool {
+        matches!(self, Self::Compact | Self::Exhaustive)
+    }
 
     /// The name used on the command line and in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Mixed => "mixed",
+            Self::Compact => "compact",
             Self::Corners => "corners",
             Self::Even => "even",
             Self::Random => "random",
@@ -88,7 +97,7 @@ impl fmt::Display for Strategy {
 
 /// The text is not a strategy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{0:?} is not a strategy; use mixed, corners, even, random or exhaustive")]
+#[error("{0:?} is not a strategy; use mixed, compact, corners, even, random or exhaustive")]
 pub struct StrategyError(pub String);
 
 impl FromStr for Strategy {

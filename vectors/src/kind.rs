@@ -5,6 +5,8 @@ use std::fmt;
 /// Why a case was chosen. A case chosen for several reasons keeps the first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Kind {
+    /// It kills faults of its row that its neighbours do not ([`crate::faults`]).
+    Target,
     /// x = 1, or the greatest x where the format does not reach 1.
     One,
     /// One ulp below or above 1.
@@ -48,6 +50,7 @@ pub enum Kind {
 impl fmt::Display for Kind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self {
+            Self::Target => "target",
             Self::One => "one",
             Self::BesideOne => "beside_one",
             Self::Zero => "zero",

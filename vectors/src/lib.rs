@@ -1,20 +1,24 @@
 //! Cases for the highlight pipeline and the files they travel in.
 //!
 //! Generators ([`stimulus`]) choose cases and know nothing of checkers; a [`Bundle`] adds the golden
-//! model's answers and writes the files; [`verify()`] reads them back. Text formats of Verilog are known
-//! in this crate only.
+//! model's answers and writes the files; [`verify()`] reads them back, and [`check()`] judges by them
+//! what somebody else's hardware answered. Text formats of Verilog are known in this crate only.
 //!
 //! Everything written goes through [`whole_file`]: files appear whole, or not at all.
 //!
 //! The errors say all they know in their message; what the system said is their `cause` and not
 //! their `source()`, so that whoever prints a chain of errors does not say it twice.
 
+pub mod answers;
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod fault_table;
+pub mod faults;
 pub mod kind;
 pub mod manifest;
 pub mod memory_file;
+pub mod negative_control;
 pub mod packing;
 pub mod reference;
 pub mod rtl;
@@ -24,6 +28,7 @@ pub mod table;
 pub mod verify;
 pub mod whole_file;
 
+pub use answers::{AnswersError, Verdict, check};
 pub use bundle::{Bundle, BundleError};
 pub use case::{Case, Sample, Strategy};
 pub use kind::Kind;

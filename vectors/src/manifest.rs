@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::case::Strategy;
 use crate::checksum::Checksum;
+use crate::faults::Compact;
+use crate::negative_control::NegativeControl;
 use crate::packing::WordLayout;
 
 /// The manifest's own name.
@@ -25,8 +27,13 @@ pub const ROM: &str = "rom.mem";
 /// Every case with what each stage holds.
 pub const TABLE: &str = "vectors.csv";
 
+/// [`EXPECTED`] with one wrong word: a testbench given this must fail.
+pub const NEGATIVE_CONTROL: &str = "negative_control.mem";
+/// Every fault and the vector that kills it, where the strategy looked for them.
+pub const FAULTS: &str = "faults.csv";
+
 /// The version of the manifest itself; a reader refuses others.
-pub const FORMAT_VERSION: u32 = 1;
+pub const FORMAT_VERSION: u32 = 2;
 
 /// The manifest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -46,6 +53,10 @@ pub struct Manifest {
     pub counts: Counts,
     /// What a reader should know about the choice.
     pub notes: Vec<String>,
+    /// The faults, where the strategy looked for all of them.
+    pub faults: Option<FaultCounts>,
+    /// The word that is wrong in [`NEGATIVE_CONTROL`].
+    pub negative_control: NegativeControl,
     /// The pipeline's ports and ranks.
     pub hardware: Hardware,
     /// What the words of each memory file are made of.
@@ -70,6 +81,20 @@ pub struct Counts {
     pub corners_available: u64,
     /// Cases of each kind; a case chosen for several reasons counts under the first.
     pub kinds: BTreeMap<String, u64>,
+}
+
+/// What the vectors kill, where that is known of every fault.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FaultCounts {
+    /// Faults of the model.
+    pub faults: u64,
+    /// Those that no input tells from right hardware; the vectors kill all others.
+    pub equivalent: u64,
+    /// Fewer vectors than this cannot kill as much.
+    pub lower_bound: u64,
+    /// The inputs that were tried: every x of [0, 1] in every row.
+    pub inputs: u64,
 }
 
 /// The pipeline as a testbench sees it.
@@ -142,6 +167,19 @@ impl Words {
             stimulus: WordLayout::stimulus(datapath),
             expected: WordLayout::expected(datapath),
             rom: WordLayout::rom(datapath.rom().layout()),
+        }
+    }
+}
+
+impl FaultCounts {
+    /// The counts of a search.
+    #[must_use]
+    pub fn of(compact: &Compact) -> Self {
+        Self {
+            faults: compact.verdicts().len() as u64,
+            equivalent: compact.equivalent().count() as u64,
+            lower_bound: compact.lower_bound(),
+            inputs: compact.inputs(),
         }
     }
 }

@@ -8,7 +8,9 @@ use dashu_int::UBig;
 use thiserror::Error;
 
 use crate::checksum::checksum;
-use crate::manifest::{EXPECTED, FORMAT_VERSION, MANIFEST, Manifest, ROM, STIMULUS, TABLE};
+use crate::manifest::{
+    EXPECTED, FAULTS, FORMAT_VERSION, MANIFEST, Manifest, NEGATIVE_CONTROL, ROM, STIMULUS, TABLE,
+};
 use crate::memory_file::{MemoryError, read_words};
 use crate::table::{TableError, TableRow, read_table};
 
@@ -92,6 +94,23 @@ pub enum VerifyError {
         /// The word by the table.
         expected: u128,
     },
+    /// The negative control is not one wrong word, as the manifest records it.
+    #[error(
+        "{}: {differing} words differ from {EXPECTED}; the manifest says that only word {vector} does, and is \
+         {corrupted} there instead of {expected}", path.display()
+    )]
+    Control {
+        /// The file.
+        path: PathBuf,
+        /// How many words differ.
+        differing: usize,
+        /// The vector that should.
+        vector: u64,
+        /// Its word by the manifest.
+        corrupted: String,
+        /// Its right word by the manifest.
+        expected: String,
+    },
 }
 
 /// A bundle read back.
@@ -113,8 +132,11 @@ pub struct Verified {
 pub fn verify(directory: impl AsRef<Path>) -> Result<Verified, VerifyError> {
     let directory = directory.as_ref();
     let manifest = read_manifest(directory)?;
-    for name in [ROM, STIMULUS, EXPECTED, TABLE] {
+    for name in [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE] {
         check_file(directory, &manifest, name)?;
+    }
+    if manifest.faults.is_some() {
+        check_file(directory, &manifest, FAULTS)?;
     }
     let vectors = read_table(&directory.join(TABLE))?;
     if vectors.len() as u64 != manifest.counts.vectors {
@@ -128,9 +150,47 @@ pub fn verify(directory: impl AsRef<Path>) -> Result<Verified, VerifyError> {
     compare(directory, EXPECTED, words.expected.width, &vectors, |row| {
         words.expected.pack(&[row.expected.status.into(), row.expected.intensity])
     })?;
+    check_control(directory, &manifest, &vectors)?;
     let depth = manifest.counts.rom_words as usize;
     let rom = read_words(&directory.join(ROM), words.rom.width, depth)?;
     Ok(Verified { manifest, vectors, rom })
+}
+
+/// That the negative control differs from the expected answers in the one word of the manifest.
+fn check_control(
+    directory: &Path,
+    manifest: &Manifest,
+    vectors: &[TableRow],
+) -> Result<(), VerifyError> {
+    let path = directory.join(NEGATIVE_CONTROL);
+    let (layout, record) = (&manifest.words.expected, &manifest.negative_control);
+    let found = read_words(&path, layout.width, vectors.len())?;
+    let right = vectors
+        .iter()
+        .map(|row| UBig::from(layout.pack(&[row.expected.status.into(), row.expected.intensity])));
+    let differing: Vec<(usize, UBig, UBig)> = found
+        .into_iter()
+        .zip(right)
+        .enumerate()
+        .filter(|(_, (found, right))| found != right)
+        .map(|(index, (found, right))| (index, found, right))
+        .collect();
+    let hex = |word: &UBig| format!("{word:00$x}", layout.digits());
+    let as_recorded = differing.first().is_some_and(|(index, found, right)| {
+        *index as u64 == record.vector
+            && hex(found) == record.corrupted
+            && hex(right) == record.expected
+    });
+    if differing.len() == 1 && as_recorded {
+        return Ok(());
+    }
+    Err(VerifyError::Control {
+        path,
+        differing: differing.len(),
+        vector: record.vector,
+        corrupted: record.corrupted.clone(),
+        expected: record.expected.clone(),
+    })
 }
 
 fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {

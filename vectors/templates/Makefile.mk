@@ -24,36 +24,39 @@ VERILATOR ?= verilator
 IVERILOG  ?= iverilog
 VVP       ?= vvp
 ARGUMENTS ?=
+BUILD     ?= build
 
 # What a simulator prints, and its verdict as exit status.
-JUDGE = tee build/log && tail -n 1 build/log | grep -q '^PASS [1-9]'
+JUDGE = tee $(BUILD)/log && tail -n 1 $(BUILD)/log | grep -q '^PASS [1-9]'
 
-icarus: build/blysk.vvp
-	@$(VVP) -n build/blysk.vvp $(ARGUMENTS) | $(JUDGE)
+icarus: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp $(ARGUMENTS) | $(JUDGE)
 
-verilator: build/verilated/blysk_tb
-	@build/verilated/blysk_tb $(ARGUMENTS) | grep -v '^- .*\$$finish' | $(JUDGE)
+verilator: $(BUILD)/verilated/blysk_tb
+	@$(BUILD)/verilated/blysk_tb $(ARGUMENTS) | grep -v '^- ' | $(JUDGE)
 
-control: build/blysk.vvp
-	@$(VVP) -n build/blysk.vvp +expected=negative_control.mem | tee build/log
-	@tail -n 1 build/log | grep -q '^FAIL vector'
+control: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp +expected=negative_control.mem | tee $(BUILD)/log
+	@tail -n 1 $(BUILD)/log | grep -q '^FAIL vector'
 
-build/blysk.vvp: $(RTL) blysk_tb.sv
-	@mkdir -p build
+$(BUILD)/blysk.vvp: $(RTL) blysk_tb.sv
+	@mkdir -p $(BUILD)
 	$(IVERILOG) -g2012 -Wall -Wno-timescale -s blysk_tb -o $@ $(RTL) blysk_tb.sv
 
-build/verilated/blysk_tb: $(RTL) blysk_tb.sv
-	@mkdir -p build
-	$(VERILATOR) --binary --timing -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
-	  --top-module blysk_tb --Mdir build/verilated -o blysk_tb $(RTL) blysk_tb.sv > build/verilator.log \
-	  || { cat build/verilator.log; exit 1; }
+# Some builds of Verilator leave open how their compiler takes a precompiled header.
+$(BUILD)/verilated/blysk_tb: $(RTL) blysk_tb.sv
+	@mkdir -p $(BUILD)
+	$(VERILATOR) --binary --timing --trace -CFLAGS "-fcoroutines -O1" -O3 -Wno-fatal -Wno-WIDTH -Wno-TIMESCALEMOD -j 2 \
+	  -MAKEFLAGS CFG_CXXFLAGS_PCH_I=-include \
+	  --top-module blysk_tb --Mdir $(BUILD)/verilated -o blysk_tb $(RTL) blysk_tb.sv > $(BUILD)/verilator.log \
+	  || { cat $(BUILD)/verilator.log; exit 1; }
 
 lint:
 	$(IVERILOG) -g2012 -Wall -s $(TOP) -o /dev/null $(RTL)
 	$(VERILATOR) --lint-only -Wall --top-module $(TOP) $(RTL)
 
-waves: build/blysk.vvp
-	@$(VVP) -n build/blysk.vvp +waves=waves.vcd $(ARGUMENTS) | $(JUDGE)
+waves: $(BUILD)/blysk.vvp
+	@$(VVP) -n $(BUILD)/blysk.vvp +waves=waves.vcd $(ARGUMENTS) | $(JUDGE)
 
 clean:
-	rm -rf build waves.vcd
+	rm -rf $(BUILD) waves.vcd

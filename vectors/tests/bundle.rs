@@ -8,7 +8,7 @@ use std::path::Path;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use vectors::bundle::{MAX_VECTORS, file_paths};
-use vectors::manifest::{EXPECTED, MANIFEST, ROM, STIMULUS, TABLE};
+use vectors::manifest::{EXPECTED, FAULTS, MANIFEST, NEGATIVE_CONTROL, ROM, STIMULUS, TABLE};
 use vectors::reference::Expected;
 use vectors::{Bundle, BundleError, Case, Strategy, VerifyError, verify};
 
@@ -139,7 +139,8 @@ fn the_table_shows_every_stage() {
 #[test]
 fn a_changed_bundle_is_refused() {
     let design = common::small();
-    for (index, name) in [ROM, STIMULUS, EXPECTED, TABLE].into_iter().enumerate() {
+    for (index, name) in [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE].into_iter().enumerate()
+    {
         let place = tempfile::tempdir().unwrap();
         write(&design, Strategy::Mixed, 50, place.path());
         verify(place.path()).unwrap();
@@ -194,7 +195,7 @@ fn files_that_disagree_are_refused() {
     reseal(EXPECTED);
     let error = verify(place.path()).unwrap_err();
     assert!(
-        matches!(&error, VerifyError::Disagree { path, index: 0, .. } if path.ends_with(EXPECTED)),
+        matches!(&error, VerifyError::Disagree { path, index: 15, .. } if path.ends_with(EXPECTED)),
         "{error}"
     );
     change(EXPECTED, "\n07f\n", "\n");
@@ -209,8 +210,8 @@ fn files_that_disagree_are_refused() {
     change(MANIFEST, "\"vectors\": 50", "\"vectors\": 0");
     assert!(matches!(verify(place.path()).unwrap_err(), VerifyError::Empty(_)));
     fs::write(&manifest_path, &text).unwrap();
-    change(MANIFEST, "\"format_version\": 1", "\"format_version\": 2");
-    assert!(matches!(verify(place.path()).unwrap_err(), VerifyError::Version { found: 2, .. }));
+    change(MANIFEST, "\"format_version\": 2", "\"format_version\": 1");
+    assert!(matches!(verify(place.path()).unwrap_err(), VerifyError::Version { found: 1, .. }));
     fs::write(&manifest_path, text.replace("\"rom.mem\"", "\"ram.mem\"")).unwrap();
     assert!(matches!(verify(place.path()).unwrap_err(), VerifyError::NotListed { name: ROM, .. }));
     fs::write(&manifest_path, &text[..text.len() / 2]).unwrap();
@@ -269,4 +270,104 @@ fn an_exponent_without_a_word_has_an_address_and_a_reference() {
     let case = Case::of(design.rom(), 64.0, 255);
     assert_eq!(case.address, 4);
     assert_eq!(Expected::of(design.datapath(), case), Expected { intensity: 0, status: 1 });
+}
+
+fn words(path: &Path) -> Vec<String> {
+    let text = fs::read_to_string(path).unwrap();
+    text.lines().filter(|line| !line.starts_with("//")).map(str::to_owned).collect()
+}
+
+/// One word is another, in one bit of the intensity, and the manifest says which.
+#[test]
+fn the_negative_control_is_wrong_once() {
+    let place = tempfile::tempdir().unwrap();
+    let design = common::small();
+    let mut flips = std::collections::BTreeSet::new();
+    for (seed, count) in (0..24).map(|seed| (seed, 50)).chain([(1, 1)]) {
+        let bundle = Bundle::new(&design, Strategy::Mixed, count, seed, "c").unwrap();
+        let record = bundle.write_to(place.path()).unwrap().negative_control;
+        let right = words(&place.path().join(EXPECTED));
+        let wrong = words(&place.path().join(NEGATIVE_CONTROL));
+        assert_eq!(right.len(), wrong.len());
+        let differing: Vec<usize> =
+            (0..right.len()).filter(|&index| right[index] != wrong[index]).collect();
+        assert_eq!(differing, [record.vector as usize]);
+        assert_eq!(
+            (&right[differing[0]], &wrong[differing[0]]),
+            (&record.expected, &record.corrupted)
+        );
+        let [expected, corrupted] = [&record.expected, &record.corrupted]
+            .map(|word| u64::from_str_radix(word, 16).unwrap());
+        assert_eq!(expected ^ corrupted, 1 << record.bit);
+        // The intensity is the lowest 8 bits of the word.
+        assert!(record.bit < 8);
+        verify(place.path()).unwrap();
+        flips.insert((record.vector, record.bit));
+    }
+    assert!(flips.len() > 15, "{flips:?}");
+}
+
+/// A control that is right everywhere, wrong twice, or wrong elsewhere is refused.
+#[test]
+fn a_negative_control_that_controls_nothing_is_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let design = common::small();
+    write(&design, Strategy::Mixed, 50, place.path());
+    let path = |name: &str| place.path().join(name);
+    let manifest: vectors::Manifest =
+        serde_json::from_str(&fs::read_to_string(path(MANIFEST)).unwrap()).unwrap();
+    let refused = |control: &str, found: usize| {
+        fs::write(path(NEGATIVE_CONTROL), control).unwrap();
+        let mut manifest = manifest.clone();
+        let file = fs::File::open(path(NEGATIVE_CONTROL)).unwrap();
+        let checksum = vectors::checksum::checksum(file).unwrap();
+        manifest.files.insert(NEGATIVE_CONTROL.to_owned(), checksum);
+        fs::write(path(MANIFEST), manifest.to_json()).unwrap();
+        let error = verify(place.path()).unwrap_err();
+        assert!(
+            matches!(&error, VerifyError::Control { differing, .. } if *differing == found),
+            "{error}"
+        );
+    };
+    let right = words(&path(EXPECTED));
+    let wrong = words(&path(NEGATIVE_CONTROL));
+    refused(&right.join("\n"), 0);
+    let other = (manifest.negative_control.vector as usize + 1) % right.len();
+    let flip = |word: &str| format!("{:03x}", u64::from_str_radix(word, 16).unwrap() ^ 1);
+    let mut twice = wrong.clone();
+    twice[other] = flip(&wrong[other]);
+    refused(&twice.join("\n"), 2);
+    let mut elsewhere = right.clone();
+    elsewhere[other] = flip(&right[other]);
+    refused(&elsewhere.join("\n"), 1);
+}
+
+#[test]
+fn the_compact_bundle_says_what_it_kills() {
+    let place = tempfile::tempdir().unwrap();
+    let design = common::small();
+    write(&design, Strategy::Compact, 0, place.path());
+    let read = verify(place.path()).unwrap();
+    let faults = read.manifest.faults.unwrap();
+    let mut reader = csv::Reader::from_path(place.path().join(FAULTS)).unwrap();
+    let lines: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(lines.len() as u64, faults.faults);
+    let vectors = read.vectors.len();
+    let mut equivalent = 0;
+    for line in &lines {
+        match (&line[1], line[2].parse::<usize>()) {
+            ("killed", Ok(vector)) => assert!(vector < vectors),
+            ("equivalent", Err(_)) => equivalent += 1,
+            _ => panic!("{line:?}"),
+        }
+    }
+    assert_eq!(equivalent, faults.equivalent);
+    assert!(faults.lower_bound <= vectors as u64);
+    assert_eq!(faults.inputs, 4 * 257);
+    let notes = read.manifest.notes.join("\n");
+    assert!(notes.contains(&format!("{equivalent} are equivalent")), "{notes}");
+    let error = Bundle::new(&common::wide(), Strategy::Compact, 0, 1, "").unwrap_err().to_string();
+    assert!(error.contains("narrower input"), "{error}");
+    fs::remove_file(place.path().join(FAULTS)).unwrap();
+    assert!(matches!(verify(place.path()).unwrap_err(), VerifyError::Io { .. }));
 }

@@ -10,6 +10,7 @@ use crate::rounding::{Lane, Rounding};
 
 use super::clamp::clamp;
 use super::front_end::{FrontEnd, Region};
+use super::keep::{Damage, Keep, Registers};
 use super::ranks::Datapath;
 use super::stage::MultiplyAdd;
 use super::tail::{Divider, Division};
@@ -26,21 +27,40 @@ pub struct Block {
     pub regions: Vec<Region>,
 }
 
+impl Block {
+    fn clear(&mut self, len: usize) {
+        self.intensities.clear();
+        self.regions.clear();
+        self.intensities.resize(len, 0);
+        self.regions.resize(len, Region::Zero);
+    }
+}
+
 impl Datapath {
     /// Evaluates every x at one address into `block`, whose memory is used again. An address without
     /// a word gives zeros.
     pub fn evaluate_block(&self, address: u32, xs: &[i64], block: &mut Block) {
-        block.intensities.clear();
-        block.regions.clear();
-        block.intensities.resize(xs.len(), 0);
-        block.regions.resize(xs.len(), Region::Zero);
+        block.clear(xs.len());
         let Some(row) = self.rom.row(address) else {
             return;
         };
         if self.narrow {
             narrow_block(self, row, xs, block);
         } else {
-            Lines::of(self).evaluate::<i128>(row, xs, block);
+            Lines::of(self).evaluate::<i128, _>(row, xs, block, &Registers::WHOLE);
+        }
+    }
+
+    /// Evaluates every x with a row that need not be one of the ROM's, only in its formats, and with a
+    /// register that may be damaged. What does not fit its register wraps there. The polynomial's answers
+    /// are those before the [`clamp`](fn@super::clamp::clamp), so that its flag can be told as well.
+    pub fn evaluate_row(&self, row: &Row, damage: Option<&Damage>, xs: &[i64], block: &mut Block) {
+        block.clear(xs.len());
+        if self.narrow {
+            narrow_row(self, row, damage, xs, block);
+        } else {
+            let registers = Registers::trimmed(&self.formats, damage);
+            Lines::of(self).evaluate::<i128, _>(row, xs, block, &registers);
         }
     }
 }
@@ -49,7 +69,20 @@ impl Datapath {
 /// chosen at run time. Integers give the same bits in all of them.
 #[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
 fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
-    Lines::of(datapath).evaluate::<i64>(row, xs, block);
+    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &Registers::WHOLE);
+}
+
+/// The same with trimmed registers.
+#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+fn narrow_row(
+    datapath: &Datapath,
+    row: &Row,
+    damage: Option<&Damage>,
+    xs: &[i64],
+    block: &mut Block,
+) {
+    let registers = Registers::trimmed(&datapath.formats, damage);
+    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &registers);
 }
 
 /// The lines of a data path, out of their ranks.
@@ -83,13 +116,21 @@ impl Lines {
     }
 
     #[inline(always)]
-    fn evaluate<L: Lane>(self, row: &Row, xs: &[i64], block: &mut Block) {
+    fn evaluate<L: Lane, K: Keep<L>>(
+        self,
+        row: &Row,
+        xs: &[i64],
+        block: &mut Block,
+        keep: &Registers<K>,
+    ) {
         match self.rounding() {
-            Some(Rounding::Floor) => self.rounded_by(Rounding::Floor).chunks::<L>(row, xs, block),
-            Some(Rounding::NearestUp) => {
-                self.rounded_by(Rounding::NearestUp).chunks::<L>(row, xs, block);
+            Some(Rounding::Floor) => {
+                self.rounded_by(Rounding::Floor).chunks::<L, K>(row, xs, block, keep);
             }
-            _ => self.chunks::<L>(row, xs, block),
+            Some(Rounding::NearestUp) => {
+                self.rounded_by(Rounding::NearestUp).chunks::<L, K>(row, xs, block, keep);
+            }
+            _ => self.chunks::<L, K>(row, xs, block, keep),
         }
     }
 
@@ -104,20 +145,27 @@ impl Lines {
     }
 
     #[inline(always)]
-    fn chunks<L: Lane>(&self, row: &Row, xs: &[i64], block: &mut Block) {
+    fn chunks<L: Lane, K: Keep<L>>(
+        &self,
+        row: &Row,
+        xs: &[i64],
+        block: &mut Block,
+        keep: &Registers<K>,
+    ) {
         let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
         for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
-            self.evaluate_lanes::<L>(row, xs, intensities, regions);
+            self.evaluate_lanes::<L, K>(row, xs, intensities, regions, keep);
         }
     }
 
     #[inline(always)]
-    fn evaluate_lanes<L: Lane>(
+    fn evaluate_lanes<L: Lane, K: Keep<L>>(
         &self,
         row: &Row,
         xs: &[i64],
         intensities: &mut [i64],
         regions: &mut [Region],
+        keep: &Registers<K>,
     ) {
         let cut = L::from_bits(row.get(FieldName::Cut));
         let mut any_tail = false;
@@ -126,20 +174,21 @@ impl Lines {
             any_tail |= *region == Region::Tail;
         }
         if self.stages.is_some() {
-            self.polynomial_lanes::<L>(row, xs, regions, intensities);
+            self.polynomial_lanes::<L, K>(row, xs, regions, intensities, keep);
         }
         if any_tail {
-            self.tail_lanes::<L>(row, xs, regions, intensities);
+            self.tail_lanes::<L, K>(row, xs, regions, intensities, keep);
         }
     }
 
     #[inline(always)]
-    fn polynomial_lanes<L: Lane>(
+    fn polynomial_lanes<L: Lane, K: Keep<L>>(
         &self,
         row: &Row,
         xs: &[i64],
         regions: &[Region],
         intensities: &mut [i64],
+        keep: &Registers<K>,
     ) {
         let Some([stage1, stage2, stage3]) = &self.stages else {
             return;
@@ -149,22 +198,27 @@ impl Lines {
         let (one, shift) = (L::from_bits(self.output_one), row.shift());
         for ((&x, &region), intensity) in xs.iter().zip(regions).zip(intensities) {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            let v = self.front_end.variable(x, region, shift);
-            let t1 = stage1.apply(c3, v, c2);
-            let t2 = stage2.apply(t1, v, c1);
-            let t3 = stage3.apply(t2, v, c0);
+            let v = keep.v.keep(self.front_end.variable(x, region, shift));
+            let t1 = keep.t[0].keep(stage1.apply(c3, v, c2));
+            let t2 = keep.t[1].keep(stage2.apply(t1, v, c1));
+            let t3 = keep.t[2].keep(stage3.apply(t2, v, c0));
             let answers = region == Region::Polynomial;
-            *intensity = if answers { clamp(t3, one).to_bits() } else { 0 };
+            *intensity = match answers {
+                true if K::WHOLE => clamp(t3, one).to_bits(),
+                true => t3.to_bits(),
+                false => 0,
+            };
         }
     }
 
     #[inline(always)]
-    fn tail_lanes<L: Lane>(
+    fn tail_lanes<L: Lane, K: Keep<L>>(
         &self,
         row: &Row,
         xs: &[i64],
         regions: &[Region],
         intensities: &mut [i64],
+        keep: &Registers<K>,
     ) {
         let Some(divider) = &self.divider else { return };
         let a = L::from_bits(row.get(FieldName::TailA));
@@ -173,19 +227,28 @@ impl Lines {
         let mut divisors = [L::ONE; LANES];
         let mut remainders = [L::ZERO; LANES];
         let mut digits = [L::ZERO; LANES];
+        let (keep_remainder, keep_digits) = keep.behind_stage(0);
         for (lane, (&x, &region)) in xs.iter().zip(regions).enumerate() {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            let begun = divider.begin(self.front_end.tail_x(x, region), a, b);
-            (divisors[lane], remainders[lane], digits[lane]) =
-                (begun.divisor, begun.remainder, begun.digits);
+            let x = keep.tail_x.keep(self.front_end.tail_x(x, region));
+            let begun = divider.begin(x, a, b);
+            divisors[lane] = keep.divisor.keep(begun.divisor);
+            remainders[lane] = keep_remainder.keep(begun.remainder);
+            digits[lane] = keep_digits.keep(begun.digits);
         }
-        for _ in 0..divider.digit_count {
+        for digit in 0..divider.digit_count {
             for ((&divisor, remainder), digits) in
                 divisors.iter().zip(&mut remainders).zip(&mut digits)
             {
                 let next =
                     divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
                 (*remainder, *digits) = (next.remainder, next.digits);
+            }
+            if !K::WHOLE && divider.ends_stage(digit) {
+                let stage = 1 + digit / divider.digits_per_stage;
+                let (keep_remainder, keep_digits) = keep.behind_stage(stage as usize);
+                remainders = remainders.map(|remainder| keep_remainder.keep(remainder));
+                digits = digits.map(|digits| keep_digits.keep(digits));
             }
         }
         let one = L::from_bits(self.output_one);

@@ -13,15 +13,18 @@
 //! because the width analysis ([`crate::budget`]) sized every line.
 #![deny(clippy::float_arithmetic)]
 
+mod altered;
 mod block;
 pub mod clamp;
 pub mod formats;
 pub mod front_end;
+mod keep;
 pub mod ranks;
 pub mod signals;
 pub mod stage;
 pub mod tail;
 
 pub use block::Block;
+pub use keep::Damage;
 pub use ranks::Datapath;
 pub use signals::{Register, Signals, Status};

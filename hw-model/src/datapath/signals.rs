@@ -49,6 +49,12 @@ impl Status {
     pub const fn with(self, other: Self, condition: bool) -> Self {
         Self(self.0 | if condition { other.0 } else { 0 })
     }
+
+    /// These flags without those of `other`.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
 }
 
 impl fmt::Display for Status {

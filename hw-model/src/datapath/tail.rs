@@ -71,6 +71,13 @@ impl Divider {
         self.digit_count.div_ceil(self.digits_per_stage)
     }
 
+    /// True where a rank of registers takes in what quotient bit `digit` (0 is the first) leaves.
+    #[inline(always)]
+    #[must_use]
+    pub const fn ends_stage(&self, digit: u32) -> bool {
+        (digit + 1).is_multiple_of(self.digits_per_stage) || digit + 1 == self.digit_count
+    }
+
     /// The division x / (A − B·x), before its first quotient bit.
     #[inline(always)]
     pub fn begin<L: Lane>(&self, x: L, a: L, b: L) -> Division<L> {

@@ -1,8 +1,9 @@
 //! The `blysk` command line: the only place that knows clap and paths.
 //!
-//! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold; 2 a usage,
-//! configuration, input or output error.
+//! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
+//! not the expected one; 2 a usage, configuration, input or output error.
 
+mod check;
 mod coefficients;
 mod configuration;
 mod presets;
@@ -27,21 +28,16 @@ struct Cli {
     command: Command,
 }
 
+/// What each does is said at its arguments: said here, it would take the place of what they say.
 #[derive(Subcommand)]
 enum Command {
-    /// Measure the error for every exponent and judge it against a bound.
     Report(report::Args),
-    /// Write test vectors for an RTL simulation.
     Vectors(vectors::Args),
-    /// Write the RTL with its testbench, vectors and a Makefile that runs them.
     Rtl(rtl::Args),
-    /// Run a stimulus through the clocked pipeline; record every register, every cycle.
+    Check(check::Args),
     Simulate(simulate::Args),
-    /// Print the real coefficients of a method.
     Coefficients(coefficients::Args),
-    /// Print the ROM: layout and words.
     Rom(rom::Args),
-    /// List the presets, or print one as a starting point for a configuration.
     Presets(presets::Args),
 }
 
@@ -50,8 +46,8 @@ enum Command {
 enum Outcome {
     /// Everything asked for was done, and holds where something was checked.
     Good,
-    /// A bound does not hold.
-    BoundFails,
+    /// Something that was checked does not hold.
+    Fails,
 }
 
 /// Standard output, buffered.
@@ -79,11 +75,14 @@ fn named(error: io::Error) -> io::Error {
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
     let mut out = BufWriter::new(Stdout(io::stdout().lock()));
-    let result = run(cli.command, &mut out)
-        .and_then(|outcome| out.flush().map(|()| outcome).map_err(Into::into));
+    let result = run(cli.command, &mut out).and_then(|outcome| match out.flush() {
+        // What was found stands in the exit status, whoever reads the rest.
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(outcome),
+    });
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
-        Ok(Outcome::BoundFails) => ExitCode::from(1),
+        Ok(Outcome::Fails) => ExitCode::from(1),
         // Whoever reads the output (`| head`) has seen enough.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
@@ -99,6 +98,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Report(args) => report::run(&args, out),
         Command::Vectors(args) => vectors::run(&args, out),
         Command::Rtl(args) => rtl::run(&args, out),
+        Command::Check(args) => check::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),

@@ -11,6 +11,8 @@ use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
 
 /// List the presets, or print one as a starting point for a configuration.
+///
+/// Wherever a command takes --preset NAME, it takes one that was changed with --config FILE.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk presets\n          blysk presets show paper > mine.json")]
 pub(super) struct Args {

@@ -100,7 +100,7 @@ fn written(place: &str, out: &mut Out) -> std::io::Result<()> {
 }
 
 fn outcome(holds: bool) -> Outcome {
-    if holds { Outcome::Good } else { Outcome::BoundFails }
+    if holds { Outcome::Good } else { Outcome::Fails }
 }
 
 /// Measures, and writes the files if there is a place for them.

@@ -16,7 +16,7 @@ use super::{Out, Outcome};
 /// self-checking testbench with its vectors, a Makefile for Icarus Verilog and Verilator, and a
 /// FuseSoC core file. Same command, same bytes.
 #[derive(ClapArgs)]
-#[command(after_help = "Example: blysk rtl --preset compact --out rtl && make -C rtl icarus")]
+#[command(after_help = "Example: blysk rtl --preset compact --out rtl")]
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,

@@ -1,9 +1,9 @@
 //! `blysk simulate`: a stimulus through the clocked pipeline.
 
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
 use vectors::{Cycle as StimulusLine, WholeFile, read_stimulus};
@@ -14,7 +14,7 @@ use super::{Out, Outcome};
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus};
 use crate::trace::TraceWriter;
-use crate::waves::WaveWriter;
+use crate::waves::{WaveFormat, WaveWriter};
 
 /// Run a stimulus through the clocked pipeline; record every register, every cycle.
 ///
@@ -34,7 +34,7 @@ pub(super) struct Args {
     /// Write every port and register of every cycle to this CSV file.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
-    /// Write waves to this VCD file.
+    /// Write waves to this file, which ends in .vcd, or in .fst for a small part of the size.
     #[arg(long, value_name = "FILE")]
     waves: Option<PathBuf>,
     /// Write trace.csv and waves.vcd to this directory.
@@ -56,11 +56,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if trace.is_some() && trace.as_deref().map(place) == waves.as_deref().map(place) {
         bail!("--trace and --waves name the same file; give each its own");
     }
+    let format = waves.as_deref().map(wave_format).transpose()?;
     // Nothing gets its name before the run is over.
     let mut trace = trace.map(WholeFile::create).transpose()?;
     let mut waves = waves.map(WholeFile::create).transpose()?;
     let name = &design.config().name;
-    let mut recorders = Recorders::new(trace.as_mut(), waves.as_mut(), name, datapath)?;
+    let mut recorders = Recorders::new(trace.as_mut(), format.zip(waves.as_mut()), name, datapath)?;
     let counts = run_stimulus(
         &mut Pipeline::new(datapath),
         stimulus.iter().map(|line| Ok(cycle(line))),
@@ -72,6 +73,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     print(&counts, datapath.rank_count(), args.format, out)?;
     Ok(Outcome::Good)
+}
+
+/// The format that the end of a file's name asks for.
+fn wave_format(path: &Path) -> anyhow::Result<WaveFormat> {
+    let asked = path.extension().unwrap_or_default();
+    let found = WaveFormat::ALL.into_iter().find(|format| asked == format.extension());
+    found.with_context(|| {
+        format!("--waves {}: give the file a name that ends in .vcd or .fst", path.display())
+    })
 }
 
 /// Where a path leads, however it is written: the file need not be there yet.
@@ -93,7 +103,7 @@ fn cycle(line: &StimulusLine) -> StimulusCycle {
 /// What records a run.
 struct Recorders<'a> {
     trace: Option<TraceWriter<Target<'a>>>,
-    waves: Option<WaveWriter<Target<'a>>>,
+    waves: Option<WaveWriter<'a>>,
 }
 
 /// A file whose errors say which file it is.
@@ -114,15 +124,23 @@ impl Write for Target<'_> {
     }
 }
 
+impl Seek for Target<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to).map_err(|error| self.named(error))
+    }
+}
+
 impl<'a> Recorders<'a> {
     fn new(
         trace: Option<&'a mut WholeFile>,
-        waves: Option<&'a mut WholeFile>,
+        waves: Option<(WaveFormat, &'a mut WholeFile)>,
         name: &str,
         datapath: &Datapath,
     ) -> anyhow::Result<Self> {
         let trace = trace.map(|file| TraceWriter::new(Target(file), datapath)).transpose()?;
-        let waves = waves.map(|file| WaveWriter::new(Target(file), name, datapath)).transpose()?;
+        let waves = waves
+            .map(|(format, file)| WaveWriter::new(format, Target(file), name, datapath))
+            .transpose()?;
         Ok(Self { trace, waves })
     }
 

@@ -1,9 +1,12 @@
 //! `blysk vectors`: test vectors for an RTL simulation.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use vectors::faults::Workers;
 use vectors::{Bundle, Strategy};
 
 use super::configuration::Configuration;
@@ -13,22 +16,30 @@ use super::{Out, Outcome};
 /// Write test vectors for an RTL simulation.
 ///
 /// The directory gets stimulus.mem, expected.mem and rom.mem for $readmemh, vectors.csv (the same with
-/// every stage's expected register), and manifest.json. Same command, same bytes.
+/// every stage's expected register), and manifest.json; and negative_control.mem, which is expected.mem with
+/// one wrong word: a testbench that is given it must fail. Same command, same bytes.
+///
+/// Strategy compact looks at every input for the fewest vectors that show every fault of its model, and
+/// writes faults.csv; that takes minutes.
 #[derive(ClapArgs)]
-#[command(after_help = "Example: blysk vectors --preset paper --count 4096 --seed 1 --out vectors")]
+#[command(
+    after_help = "Examples: blysk vectors --preset paper --count 4096 --seed 1 --out vectors\n          \
+                        blysk vectors --config small.json --strategy compact --out fewest"
+)]
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
     /// The directory; it is made where it does not exist.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// mixed, corners, even, random or exhaustive (every address with every x).
+    /// mixed, compact (as few as show every fault), corners, even, random or exhaustive (every address
+    /// with every x).
     #[arg(long, default_value_t)]
     strategy: Strategy,
-    /// How many vectors.
+    /// How many vectors; compact and exhaustive do not ask.
     #[arg(long, default_value_t = 4096)]
     count: u64,
-    /// Seed of the random ones.
+    /// Seed of the random ones, and of the wrong word.
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
@@ -38,13 +49,19 @@ impl Args {
     fn command(&self) -> String {
         let Self { strategy, count, seed, .. } = self;
         let configuration = self.configuration.option();
-        format!("blysk vectors {configuration} --strategy {strategy} --count {count} --seed {seed}")
+        let count = match strategy {
+            Strategy::Compact => String::new(),
+            _ => format!(" --count {count}"),
+        };
+        format!("blysk vectors {configuration} --strategy {strategy}{count} --seed {seed}")
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
-    let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &args.command())?;
+    let Args { strategy, count, seed, .. } = *args;
+    let command = args.command();
+    let bundle = Bundle::with_workers(&design, strategy, count, seed, &command, &Threads)?;
     let manifest = bundle.write_to(&args.out)?;
     let counts = &manifest.counts;
     writeln!(
@@ -62,4 +79,28 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         write_folded(out, &format!("note: {note}"))?;
     }
     Ok(Outcome::Good)
+}
+
+/// Every core, with a progress bar on standard error where that is a terminal.
+struct Threads;
+
+impl Workers for Threads {
+    fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
+        let bar = match std::io::stderr().is_terminal() {
+            true => ProgressBar::new(count.into()),
+            false => ProgressBar::hidden(),
+        };
+        let style = ProgressStyle::with_template("{bar:40} {pos} of {len} rows, {eta} left");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let results = (0..count)
+            .into_par_iter()
+            .map(|index| {
+                let result = job(index);
+                bar.inc(1);
+                result
+            })
+            .collect();
+        bar.finish_and_clear();
+        results
+    }
 }

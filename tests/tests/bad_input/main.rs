@@ -3,6 +3,7 @@
 //!
 //! `Bench::refused` checks all of that; here are the mistakes.
 
+mod answers;
 mod configurations;
 mod options;
 mod places;

@@ -49,7 +49,7 @@ fn options_that_are_out_of_range() {
         ("--count 99999999999999999999", "--count"),
         ("--seed -1", "-1"),
         ("--seed 18446744073709551616", "--seed"),
-        ("--strategy all", "mixed, corners, even, random or exhaustive"),
+        ("--strategy all", "mixed, compact, corners, even, random or exhaustive"),
     ] {
         bench.refused(&format!("vectors --config small.json --out new {option}"), &[said]);
     }

@@ -38,33 +38,34 @@ fn targets_that_are_no_files() {
     let bench = bench!();
     bench.write("in.csv", "n,x\n1,0.5\n");
     bench.write("file", "keep me");
-    std::fs::create_dir(bench.path("directory")).unwrap();
+    std::fs::create_dir_all(bench.path("directory.vcd")).unwrap();
     // Through links, which a faulty command would replace, and not the devices of the machine.
     for device in ["full", "null"] {
         let path = Path::new("/dev").join(device);
         assert!(path.exists(), "{}", path.display());
-        std::os::unix::fs::symlink(path, bench.path(device)).unwrap();
+        std::os::unix::fs::symlink(path, bench.path(&format!("{device}.vcd"))).unwrap();
     }
     let simulate = "simulate --config small.json --stimulus in.csv";
     for option in ["--trace", "--waves"] {
         for (target, said) in [
-            ("full", "not a regular file"),
-            ("null", "not a regular file"),
-            ("directory", "not a regular file"),
-            ("directory/", "not a regular file"),
+            ("full.vcd", "not a regular file"),
+            ("null.vcd", "not a regular file"),
+            ("directory.vcd", "not a regular file"),
+            ("directory.vcd/", "not a regular file"),
             ("..", "file"),
             ("/", "file"),
-            ("file/trace", "a file is in the way"),
+            ("file/trace.vcd", "a file is in the way"),
         ] {
-            let named = target.strip_suffix("/trace").unwrap_or(target);
+            let named = target.strip_suffix("/trace.vcd").unwrap_or(target);
             bench.refused(&format!("{simulate} {option} {target}"), &[named, said]);
         }
-        // The other file, which could be written, is not.
-        let other = if option == "--trace" { "--waves" } else { "--trace" };
-        bench.refused(&format!("{simulate} {option} file/x {other} good"), &["directory file"]);
+    }
+    // The other file, which could be written, is not.
+    for files in ["--trace file/x --waves good.vcd", "--waves file/x.fst --trace good"] {
+        bench.refused(&format!("{simulate} {files}"), &["directory file"]);
     }
     for same in
-        ["--trace t --waves t", "--trace t --waves ./t", "--trace ./t --waves directory/../t"]
+        ["--trace t --waves t", "--trace t --waves ./t", "--trace ./t --waves directory.vcd/../t"]
     {
         bench.refused(&format!("{simulate} {same}"), &["--trace", "--waves", "same file"]);
     }
@@ -82,6 +83,20 @@ fn targets_that_are_no_files() {
     }
 }
 
+/// The end of its name says what a file of waves is to be.
+#[test]
+fn waves_of_no_known_format() {
+    let bench = bench!();
+    bench.write("in.csv", "n,x\n1,0.5\n");
+    for name in ["w", "w.txt", "w.vcd.gz", ".vcd", "vcd", "w.VCD", "new/w."] {
+        let said = ["--waves", name, ".vcd or .fst"];
+        bench.refused(
+            &format!("simulate --config small.json --stimulus in.csv --trace t --waves {name}"),
+            &said,
+        );
+    }
+}
+
 /// A device without room: no file may be longer than a block, as if the disc were full.
 #[cfg(unix)]
 #[test]
@@ -94,6 +109,7 @@ fn a_full_device() {
         ("simulate --config small.json --stimulus in.csv --out new/deep", "new/deep/"),
         ("simulate --config small.json --stimulus in.csv --trace t.csv", "t.csv"),
         ("simulate --config small.json --stimulus in.csv --waves w.vcd", "w.vcd"),
+        ("simulate --config small.json --stimulus in.csv --waves w.fst", "w.fst"),
         ("vectors --config small.json --count 500 --out new/deep", "new/deep/"),
         ("report --config small.json --bound 1 --out new/deep", "new/deep/"),
         ("rom --config small.json --out new/deep", "new/deep/"),

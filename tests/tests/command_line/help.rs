@@ -1,9 +1,11 @@
 //! Help: complete, and its examples can be typed as they stand.
 
+use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 6] = ["report", "vectors", "simulate", "coefficients", "rom", "presets"];
+const COMMANDS: [&str; 8] =
+    ["report", "vectors", "rtl", "check", "simulate", "coefficients", "rom", "presets"];
 
 /// The command lines after "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<String> {
@@ -15,6 +17,8 @@ fn examples(help: &str) -> Vec<String> {
 /// The files that the examples speak of.
 fn with_files(bench: &Bench) {
     bench.write("in.csv", "n,x\n64,0.99\n300,1\n2,-0.0\n");
+    let _summary = bench.good("vectors --config small.json --count 8 --out vectors");
+    bench.write("dut.csv", Log::right(bench, "vectors").text());
     let shown = bench.good("presets show compact");
     // The example says --exhaustive, and 2^23 x for each of 256 exponents take a while.
     let mine = shown.replace("UQ1.23", "UQ1.11").replace("1..=256", "1..=4");
@@ -31,7 +35,16 @@ fn every_command_is_listed_and_has_an_example() {
         assert!(general.contains(&format!("\n  {command} ")), "{command} is not listed: {general}");
         let help = bench.good(&format!("{command} --help"));
         assert!(!examples(&help).is_empty(), "{help}");
-        assert!(help.contains("--format") || command == "vectors", "{help}");
+        // The list says it in a line, the command's own help at length.
+        let (_, listed) = general.split_once(&format!("\n  {command} ")).unwrap();
+        let listed = listed.lines().next().unwrap().trim();
+        assert!(help.starts_with(listed), "{listed:?} does not begin {help}");
+        let (described, _) = help.split_once("\nUsage: ").expect("a usage");
+        assert!(described.lines().count() > 2, "no more than the list says: {described}");
+        assert!(
+            help.contains("--format") || ["vectors", "rtl", "check"].contains(&command),
+            "{help}"
+        );
     }
     assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));
     bench.refused("", &["Usage: blysk"]);

@@ -46,7 +46,8 @@ fn tables_fit_a_terminal() {
     for command in &commands {
         narrow(command, &bench.good(command));
     }
-    for command in ["", "report", "vectors", "simulate", "coefficients", "rom", "presets"] {
+    for command in ["", "report", "vectors", "check", "simulate", "coefficients", "rom", "presets"]
+    {
         let command = format!("{command} --help");
         narrow(&command, &bench.good(&command));
     }

@@ -42,7 +42,7 @@ fn the_same_command_gives_the_same_bytes() {
                 second.lines().skip(1).collect::<String>()
             );
             let (first, second) = (bench.tree("first"), bench.tree("deep/second"));
-            assert_eq!(first.len(), 5);
+            assert_eq!(first.len(), 6);
             assert!(first == second, "{command}");
             let verified = checked(&bench, "first", &design);
             assert_eq!(verified.manifest.command, format!("blysk {command}"));
@@ -95,6 +95,35 @@ fn files_are_replaced_whole() {
     let _summary = bench.good("vectors --config centred.json --count 20 --out v");
     let names: Vec<String> =
         bench.tree("v").into_keys().map(|name| name.display().to_string()).collect();
-    assert_eq!(names, ["expected.mem", "manifest.json", "rom.mem", "stimulus.mem", "vectors.csv"]);
+    assert_eq!(
+        names,
+        [
+            "expected.mem",
+            "manifest.json",
+            "negative_control.mem",
+            "rom.mem",
+            "stimulus.mem",
+            "vectors.csv"
+        ]
+    );
     assert_eq!(verify(bench.path("v")).unwrap().vectors.len(), 20);
+}
+
+/// On several threads the set is the one that a single one finds, and the summary says how small it is.
+#[test]
+fn the_fewest_vectors_come_with_their_bound() {
+    let bench = bench!();
+    let summary = bench.good("vectors --config small.json --strategy compact --out fewest");
+    let manifest = verify(bench.path("fewest")).unwrap().manifest;
+    let faults = manifest.faults.unwrap();
+    assert!(faults.lower_bound <= manifest.counts.vectors && faults.equivalent < faults.faults);
+    for said in [
+        format!("{} vectors kill {}", manifest.counts.vectors, faults.faults - faults.equivalent),
+        format!("fewer than {} does", faults.lower_bound),
+    ] {
+        assert!(summary.replace('\n', " ").contains(&said), "{summary}");
+    }
+    let once = bench.text("fewest/faults.csv");
+    let _summary = bench.good("vectors --config small.json --strategy compact --out again");
+    assert_eq!(once, bench.text("again/faults.csv"));
 }

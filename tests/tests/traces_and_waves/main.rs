@@ -5,6 +5,7 @@
 //! can be counted in the trace.
 
 mod counts;
+mod formats;
 mod rules;
 mod stimulus;
 mod trace;
@@ -12,6 +13,7 @@ mod waves;
 
 use blysk_tests::bench;
 use blysk_tests::cli::{Bench, CONFIGURATIONS};
+use blysk_tests::waves::Waves;
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -53,6 +55,7 @@ fn a_run_keeps_the_rules_and_its_waves_and_counts_agree() {
             let recorded = simulate(&bench, &which, &stimulus);
             rules::check(&recorded.trace, &design, &stimulus, &place);
             waves::check(&bench.read("run/waves.vcd"), &recorded.trace, &design, &place);
+            formats::check(&bench, &which, &recorded.trace, &design, &place);
             counts::check(&recorded.counts, &recorded.trace, &design, &place);
             runs += 1;
         }
@@ -94,4 +97,10 @@ fn the_top_scope_is_an_identifier() {
     bench.write("in.csv", "n,x\n1,1\n");
     let _counts = bench.good("simulate --config hyphen.json --stimulus in.csv --waves w.vcd");
     assert!(bench.text("w.vcd").contains("$scope module small_2_a $end"));
+    // One longer than the format of FST has room for.
+    let json = blysk_tests::cli::SMALL.replace("\"small\"", &format!("\"{}\"", "n".repeat(600)));
+    bench.write("long.json", json);
+    let _counts = bench.good("simulate --config long.json --stimulus in.csv --waves w.fst");
+    let clock = format!("{}.clk_i", "n".repeat(511));
+    assert!(Waves::read(&bench.path("w.fst"), &clock).edges.len() > 1);
 }

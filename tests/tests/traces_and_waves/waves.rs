@@ -1,4 +1,4 @@
-//! The waves, read back, against the trace: the same value of every signal at every rising edge.
+//! The waves as VCD, read back, against the trace: the same value of every signal at every rising edge.
 
 use std::collections::HashMap;
 
@@ -12,15 +12,27 @@ use super::trace::Trace;
 const PERIOD: u64 = 10;
 
 /// A signal of the waves: its scope within the top ("" for a port) and name, the trace's column, width.
-struct Signal {
+pub struct Signal {
     scope: String,
     name: String,
-    column: String,
-    width: u32,
+    pub column: String,
+    pub width: u32,
+}
+
+impl Signal {
+    /// Scopes and name, in a file whose top scope is `top`.
+    pub fn path<'a>(&'a self, top: &'a str) -> Vec<&'a str> {
+        [top, &self.scope, &self.name].into_iter().filter(|part| !part.is_empty()).collect()
+    }
+
+    /// A value of the trace as the signal's word: two's complement in its width.
+    pub fn to_word(&self, bits: i64) -> u64 {
+        bits as u64 & (u64::MAX >> (64 - self.width))
+    }
 }
 
 /// What an RTL simulator would show, with the names of the RTL.
-fn signals(design: &Design) -> Vec<Signal> {
+pub fn signals(design: &Design) -> Vec<Signal> {
     let datapath = design.datapath();
     let formats = datapath.formats();
     let ports = [
@@ -128,10 +140,7 @@ fn ids(header: &Header, top: &str, signals: &[Signal]) -> Vec<IdCode> {
     let ids: Vec<IdCode> = signals
         .iter()
         .map(|signal| {
-            let path: Vec<&str> = [top, &signal.scope, &signal.name]
-                .into_iter()
-                .filter(|part| !part.is_empty())
-                .collect();
+            let path = signal.path(top);
             let found = header.find_var(&path).unwrap_or_else(|| panic!("there is no {path:?}"));
             assert_eq!((found.var_type, found.size), (VarType::Wire, signal.width), "{path:?}");
             found.code
@@ -164,9 +173,7 @@ fn at_edge(
                     Value::V1 => word << 1 | 1,
                     other => panic!("{at}: a bit is {other}"),
                 });
-                // Two's complement in the signal's width.
-                let wanted = wanted as u64 & (u64::MAX >> (64 - signal.width));
-                assert_eq!(found, wanted, "{at}");
+                assert_eq!(found, signal.to_word(wanted), "{at}");
             }
         }
     }

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+pub(crate) use read::value;
 pub use read::{Entry, Value, parse, read_words};
 pub use write::{Header, write_header, write_word};
 

@@ -83,7 +83,8 @@ pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, Me
     }
 }
 
-fn value(token: &str) -> Option<Value> {
+/// What a number means; none where it is no hex number.
+pub(crate) fn value(token: &str) -> Option<Value> {
     let is_unknown = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z' | '?');
     if token.contains(is_unknown) {
         hex_digits(&token.replace(is_unknown, "0"))?;

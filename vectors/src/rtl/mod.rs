@@ -3,6 +3,7 @@
 mod package;
 pub mod probes;
 mod project;
+pub mod register_log;
 mod testbench;
 
 use std::io::Write;

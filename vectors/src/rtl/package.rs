@@ -96,33 +96,43 @@ impl Section {
 
     /// The places of a multiply-add line.
     fn line(self, name: &str, line: Option<(&MultiplyAdd, u32)>) -> Self {
-        let (up, drop, width) = line.map_or(([0; 3], 0, 1), |(line, width)| {
-            let up = [line.product_up(), line.addend_up(), line.result_up()];
-            (up, line.dropped_bits(), width)
-        });
+        let (up, drop, width, mode) =
+            line.map_or(([0; 3], 0, 1, Rounding::Floor), |(line, width)| {
+                let up = [line.product_up(), line.addend_up(), line.result_up()];
+                (up, line.dropped_bits(), width, line.rounding())
+            });
         let [product, addend, result] = up;
         self.integer(format!("{name}_PRODUCT_UP"), product)
             .integer(format!("{name}_ADDEND_UP"), addend)
             .integer(format!("{name}_RESULT_UP"), result)
             .integer(format!("{name}_DROP"), drop)
             .integer(format!("{name}_SUM_WIDTH"), width)
+            .rounding(name, mode)
+    }
+
+    /// The mode, as `blysk_round_shift` numbers them.
+    fn rounding(self, name: &str, mode: Rounding) -> Self {
+        let number = match mode {
+            Rounding::Floor => 0,
+            Rounding::NearestUp => 1,
+            Rounding::NearestEven => 2,
+            Rounding::TowardZero => 3,
+        };
+        let mut section = self.integer(format!("{name}_ROUNDING"), number);
+        if let Some(constant) = section.constants.last_mut() {
+            constant.comment = format!("  // {mode}");
+        }
+        section
     }
 }
 
 fn parts(design: &Design) -> Section {
     let datapath = design.datapath();
-    let rounding = match design.config().rounding {
-        Rounding::Floor => 0,
-        Rounding::NearestUp => 1,
-        Rounding::NearestEven => 2,
-        Rounding::TowardZero => 3,
-    };
     Section::new("What the configuration keeps")
         .integer("HAS_POLYNOMIAL", i64::from(datapath.stages().is_some()))
         .integer("HAS_TAIL", i64::from(datapath.divider().is_some()))
         .integer("CENTRED", i64::from(design.config().form == Form::Centred))
         .integer("RANKS", datapath.rank_count() as i64)
-        .integer("ROUNDING", rounding)
 }
 
 fn ports(datapath: &Datapath) -> Section {
@@ -186,6 +196,7 @@ fn front_end(datapath: &Datapath) -> Section {
         .integer("CUT_COMPARE_WIDTH", x.max(cut))
         .integer("U_UP", up)
         .integer("U_DROP", drop)
+        .rounding("U", datapath.front_end().rounding().unwrap_or(Rounding::Floor))
 }
 
 fn polynomial(design: &Design) -> Section {
@@ -227,6 +238,7 @@ fn tail(datapath: &Datapath) -> Section {
         .integer("DIVIDEND_UP", divider.map_or(0, |d| d.dividend_up))
         .integer("DIGIT_STAGES", divider.map_or(0, |d| d.digit_stages()))
         .integer("QUOTIENT_BITS_PER_STAGE", divider.map_or(1, |d| d.digits_per_stage))
+        .rounding("QUOTIENT", divider.map_or(Rounding::Floor, |d| d.rounding))
 }
 
 fn encodings() -> Section {

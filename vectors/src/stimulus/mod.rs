@@ -7,23 +7,30 @@ pub mod corners;
 pub mod even;
 pub mod exhaustive;
 pub mod random;
+mod rounds;
+pub mod targets;
 
 use std::iter;
 
 use hw_model::design::Design;
 
 use crate::case::{Sample, Strategy};
+use crate::faults::{Compact, OneByOne, Workers};
 use corners::Corners;
+use targets::Targets;
 
-/// Corners take at most this share of a mixture (as a ratio), the even grid at most an eighth.
+/// Targets and corners take at most this share of a mixture (as a ratio; more where there are more targets),
+/// the even grid at most an eighth.
 const CORNER_SHARE: (u64, u64) = (3, 4);
 const EVEN_SHARE: (u64, u64) = (1, 8);
 
-/// What a strategy will give: corners worked out, everything else yet to be generated.
+/// What a strategy will give: targets and corners worked out, everything else yet to be generated.
 #[derive(Debug, Clone)]
 pub struct Stimulus<'a> {
     design: &'a Design,
     seed: u64,
+    compact: Option<Compact>,
+    targets: Targets,
     corners: Corners,
     even: u64,
     random: u64,
@@ -31,15 +38,30 @@ pub struct Stimulus<'a> {
 }
 
 impl<'a> Stimulus<'a> {
-    /// `count` cases (fewer where the strategy has fewer, as [`Strategy::Corners`] may; all of them
-    /// for [`Strategy::Exhaustive`]), in this order: corners, even grid, random.
+    /// `count` cases (fewer where the strategy has fewer, as [`Strategy::Corners`] may; as many as are
+    /// needed for [`Strategy::Compact`]; all of them for [`Strategy::Exhaustive`]), in this order:
+    /// targets, corners, even grid, random.
     ///
     /// With `count` at least the ROM's depth, every word is met, whatever the strategy.
     #[must_use]
     pub fn new(design: &'a Design, strategy: Strategy, count: u64, seed: u64) -> Self {
+        Self::with_workers(design, strategy, count, seed, &OneByOne)
+    }
+
+    /// The same; `workers` do what takes long.
+    #[must_use]
+    pub fn with_workers(
+        design: &'a Design,
+        strategy: Strategy,
+        count: u64,
+        seed: u64,
+        workers: &impl Workers,
+    ) -> Self {
         let mut stimulus = Self {
             design,
             seed,
+            compact: None,
+            targets: Targets::default(),
             corners: Corners::default(),
             even: 0,
             random: 0,
@@ -51,15 +73,18 @@ impl<'a> Stimulus<'a> {
             Strategy::Random => stimulus.random = count,
             Strategy::Exhaustive => stimulus.exhaustive = true,
             Strategy::Mixed => stimulus.mix(count),
+            Strategy::Compact => stimulus.compact = Some(Compact::search(design, workers)),
         }
         stimulus
     }
 
     fn mix(&mut self, count: u64) {
         let part = |(times, of): (u64, u64)| count / of * times + count % of * times / of;
-        let every_row = count.min(self.design.rom().depth() as u64);
-        self.corners = Corners::new(self.design, part(CORNER_SHARE).max(every_row));
-        let left = count - self.corners.samples().len() as u64;
+        self.targets = Targets::new(self.design, count);
+        let targets = self.targets.samples();
+        let corners = part(CORNER_SHARE).saturating_sub(targets.len() as u64);
+        self.corners = Corners::beside(self.design, corners, targets);
+        let left = count - (targets.len() + self.corners.samples().len()) as u64;
         self.even = left.min(part(EVEN_SHARE));
         self.random = left - self.even;
     }
@@ -68,7 +93,8 @@ impl<'a> Stimulus<'a> {
     #[must_use]
     pub fn len(&self) -> u128 {
         let all = if self.exhaustive { exhaustive::len(self.design) } else { 0 };
-        all + self.corners.samples().len() as u128 + u128::from(self.even) + u128::from(self.random)
+        let chosen = self.targeted().len() + self.corners.samples().len();
+        all + chosen as u128 + u128::from(self.even) + u128::from(self.random)
     }
 
     /// True when there will be none.
@@ -83,6 +109,26 @@ impl<'a> Stimulus<'a> {
         &self.corners
     }
 
+    /// The targets of a mixture.
+    #[must_use]
+    pub const fn targets(&self) -> &Targets {
+        &self.targets
+    }
+
+    /// The outcome of [`Strategy::Compact`].
+    #[must_use]
+    pub const fn compact(&self) -> Option<&Compact> {
+        self.compact.as_ref()
+    }
+
+    /// The cases chosen for the faults they kill.
+    fn targeted(&self) -> &[Sample] {
+        match &self.compact {
+            Some(compact) => compact.samples(),
+            None => self.targets.samples(),
+        }
+    }
+
     /// Every case, one at a time.
     #[must_use]
     pub fn samples(&self) -> Box<dyn Iterator<Item = Sample> + '_> {
@@ -93,7 +139,7 @@ impl<'a> Stimulus<'a> {
             0 => Box::new(iter::empty()),
             count => Box::new(random::samples(self.design, count, self.seed)),
         };
-        let corners = self.corners.samples().iter().copied();
-        Box::new(corners.chain(even::samples(self.design, self.even)).chain(random))
+        let chosen = self.targeted().iter().chain(self.corners.samples()).copied();
+        Box::new(chosen.chain(even::samples(self.design, self.even)).chain(random))
     }
 }

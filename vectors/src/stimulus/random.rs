@@ -74,17 +74,17 @@ fn epicentre(design: &Design, address: u32) -> i64 {
 }
 
 /// A source of unbiased integers.
-struct Dice(ChaCha8Rng);
+pub(crate) struct Dice(ChaCha8Rng);
 
 impl Dice {
-    fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());
         Self(ChaCha8Rng::from_seed(key))
     }
 
     /// An integer in `0..bound`; `bound` is at least 1.
-    fn below(&mut self, bound: u64) -> u64 {
+    pub fn below(&mut self, bound: u64) -> u64 {
         let mask = u64::MAX >> ((bound - 1) | 1).leading_zeros();
         loop {
             let drawn = self.0.next_u64() & mask;
@@ -95,7 +95,7 @@ impl Dice {
     }
 
     /// An integer of the range, which is not empty and, like every format, within 63 bits.
-    fn within(&mut self, range: RangeInclusive<i64>) -> i64 {
+    pub fn within(&mut self, range: RangeInclusive<i64>) -> i64 {
         let (low, high) = range.into_inner();
         low + self.below((high - low) as u64 + 1) as i64
     }

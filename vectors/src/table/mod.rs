@@ -20,8 +20,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-pub use read::{TableRow, read_table};
-pub use write::TableWriter;
+pub use read::{TableRow, read_columns, read_table};
+pub use write::{TableWriter, hex};
 
 /// Why a table is refused.
 #[derive(Debug, Error)]
@@ -41,7 +41,7 @@ pub enum TableError {
         /// The file.
         path: PathBuf,
         /// The column.
-        column: &'static str,
+        column: String,
     },
     /// A field is not what its column holds.
     #[error("{}:{line}: column `{column}`: {text:?} is not {wanted}", path.display())]
@@ -51,7 +51,7 @@ pub enum TableError {
         /// The line, counted from 1.
         line: u64,
         /// The column.
-        column: &'static str,
+        column: String,
         /// The field.
         text: String,
         /// What it should be.

@@ -1,5 +1,6 @@
 //! Reading the table.
 
+use std::fs::File;
 use std::path::Path;
 use std::str::FromStr;
 
@@ -25,40 +26,71 @@ pub struct TableRow {
 /// # Errors
 /// Names the line and the column.
 pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
-    let in_file = |cause| TableError::Csv { path: path.to_owned(), cause };
-    let mut reader = csv::Reader::from_path(path).map_err(in_file)?;
-    let columns = Columns::find(reader.headers().map_err(in_file)?, path)?;
+    let (mut reader, header) = open(path)?;
+    let columns = Columns::find(&header, path)?;
     let row = |record: csv::Result<csv::StringRecord>| {
-        columns.row(&Line { path, record: record.map_err(in_file)? })
+        columns.row(&Line { path, record: record.map_err(|cause| in_file(path, cause))? })
     };
     reader.records().map(row).collect()
 }
 
+/// The integers in some columns of the table at `path`, line by line.
+///
+/// # Errors
+/// Names the line and the column.
+pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<i64>>, TableError> {
+    let (mut reader, header) = open(path)?;
+    let columns: Vec<Column<'_>> = names
+        .iter()
+        .map(|name| Column::find(&header, name, path))
+        .collect::<Result<_, TableError>>()?;
+    let line = |record: csv::Result<csv::StringRecord>| {
+        let line = Line { path, record: record.map_err(|cause| in_file(path, cause))? };
+        columns.iter().map(|&column| line.parsed(column, BITS)).collect()
+    };
+    reader.records().map(line).collect()
+}
+
+/// What the columns of registers hold.
+const BITS: &str = "an integer of at most 63 bits";
+
+fn open(path: &Path) -> Result<(csv::Reader<File>, csv::StringRecord), TableError> {
+    let mut reader = csv::Reader::from_path(path).map_err(|cause| in_file(path, cause))?;
+    let header = reader.headers().map_err(|cause| in_file(path, cause))?.clone();
+    Ok((reader, header))
+}
+
+fn in_file(path: &Path, cause: csv::Error) -> TableError {
+    TableError::Csv { path: path.to_owned(), cause }
+}
+
 struct Columns {
-    index: Column,
-    kind: Column,
-    n: Column,
-    address: Column,
-    x: Column,
-    intensity: Column,
-    status: Column,
+    index: Column<'static>,
+    kind: Column<'static>,
+    n: Column<'static>,
+    address: Column<'static>,
+    x: Column<'static>,
+    intensity: Column<'static>,
+    status: Column<'static>,
 }
 
 #[derive(Clone, Copy)]
-struct Column {
-    name: &'static str,
+struct Column<'a> {
+    name: &'a str,
     place: usize,
+}
+
+impl<'a> Column<'a> {
+    fn find(header: &csv::StringRecord, name: &'a str, path: &Path) -> Result<Self, TableError> {
+        let missing = || TableError::Column { path: path.to_owned(), column: name.to_owned() };
+        let place = header.iter().position(|field| field == name).ok_or_else(missing)?;
+        Ok(Self { name, place })
+    }
 }
 
 impl Columns {
     fn find(header: &csv::StringRecord, path: &Path) -> Result<Self, TableError> {
-        let column = |name| {
-            header
-                .iter()
-                .position(|field| field == name)
-                .map(|place| Column { name, place })
-                .ok_or_else(|| TableError::Column { path: path.to_owned(), column: name })
-        };
+        let column = |name| Column::find(header, name, path);
         Ok(Self {
             index: column("index")?,
             kind: column("kind")?,
@@ -81,10 +113,10 @@ impl Columns {
             case: Case {
                 exponent,
                 address: line.parsed(self.address, "an address")?,
-                x: line.parsed(self.x, "an integer of at most 63 bits")?,
+                x: line.parsed(self.x, BITS)?,
             },
             expected: Expected {
-                intensity: line.parsed(self.intensity, "an integer of at most 63 bits")?,
+                intensity: line.parsed(self.intensity, BITS)?,
                 status: line.parsed(self.status, "an integer of 4 bits")?,
             },
         })
@@ -97,16 +129,20 @@ struct Line<'a> {
 }
 
 impl Line<'_> {
-    fn text(&self, column: Column) -> &str {
+    fn text(&self, column: Column<'_>) -> &str {
         self.record.get(column.place).unwrap_or_default()
     }
 
-    fn parsed<T: FromStr>(&self, column: Column, wanted: &'static str) -> Result<T, TableError> {
+    fn parsed<T: FromStr>(
+        &self,
+        column: Column<'_>,
+        wanted: &'static str,
+    ) -> Result<T, TableError> {
         let text = self.text(column);
         text.parse().map_err(|_| TableError::Field {
             path: self.path.to_owned(),
             line: self.record.position().map_or(0, csv::Position::line),
-            column: column.name,
+            column: column.name.to_owned(),
             text: text.to_owned(),
             wanted,
         })

@@ -127,6 +127,8 @@ fn header(datapath: &Datapath, columns: &[(usize, Register)]) -> Vec<String> {
     header
 }
 
-fn hex(bits: i64, format: QFormat) -> String {
+/// The bits as a memory word in hex, all digits of the format, after `0x`.
+#[must_use]
+pub fn hex(bits: i64, format: QFormat) -> String {
     format!("0x{:01$x}", format.to_word(bits), format.width().div_ceil(4) as usize)
 }

@@ -35,6 +35,37 @@ pub fn all_small() -> [Design; 3] {
     [small(), centred(), below_one()]
 }
 
+/// A polynomial that dips below 0, rounded to even.
+pub fn dips() -> Design {
+    design(
+        r#"{"name": "dips", "method": "hermite", "exponents": "2,3,9", "input": "Q2.8",
+            "output": "UQ1.7", "form": "centred", "tail": "zero", "cut": "minimum",
+            "rounding": "nearest_even", "error_budget_ulp": 4}"#,
+    )
+}
+
+/// A polynomial that rises above 1, rounded towards zero, beside a divider with ranks of three bits.
+pub fn rises() -> Design {
+    design(
+        r#"{"name": "rises", "method": "three_point", "exponents": "2,3,9", "input": "UQ1.9",
+            "output": "UQ1.7", "form": "power", "tail": "rational", "cut": "epicentre",
+            "rounding": "toward_zero", "quotient_bits_per_stage": 3, "error_budget_ulp": 8}"#,
+    )
+}
+
+/// More inputs than anyone can go through.
+pub fn wide() -> Design {
+    design(
+        r#"{"name": "wide", "method": "hermite", "exponents": "1,2,64", "input": "UQ1.40",
+            "output": "UQ1.15", "form": "centred", "tail": "zero", "cut": "minimum"}"#,
+    )
+}
+
+/// Designs whose faults the tests can try on every input.
+pub fn faulty() -> [Design; 5] {
+    [small(), centred(), below_one(), dips(), rises()]
+}
+
 pub fn preset(name: &str) -> Design {
     Design::new(presets::find(name).unwrap().config().unwrap()).unwrap()
 }

@@ -24,16 +24,17 @@ use std::collections::HashSet;
 
 use hw_model::design::Design;
 
-use super::even::spread;
+use super::rounds::{Point, in_rounds};
 use crate::case::{Case, Sample};
 use crate::kind::Kind;
-use row::{Corner, Effort};
+use row::Effort;
 
 /// The corners of a design, as many as were asked for.
 #[derive(Debug, Clone, Default)]
 pub struct Corners {
     samples: Vec<Sample>,
     available: u64,
+    present: u64,
 }
 
 impl Corners {
@@ -43,15 +44,29 @@ impl Corners {
     /// are coarser, and beyond 4096 rows they look at a few points only.
     #[must_use]
     pub fn new(design: &Design, limit: u64) -> Self {
+        Self::beside(design, limit, &[])
+    }
+
+    /// At most `limit` corners that are not among these samples.
+    #[must_use]
+    pub fn beside(design: &Design, limit: u64, others: &[Sample]) -> Self {
         let effort = Effort::for_depth(design.rom().depth());
-        let lists: Vec<Vec<Corner>> = (0..design.rom().depth() as u32)
+        let mut lists: Vec<Vec<Point>> = (0..design.rom().depth() as u32)
             .map(|address| row::corners(design, address, effort))
             .collect();
         let no_word = without_word(design);
         let in_rows: usize = lists.iter().map(Vec::len).sum();
+        let taken: HashSet<(u32, i64)> =
+            others.iter().map(|sample| (sample.case.address, sample.case.x)).collect();
+        for (address, list) in (0..).zip(&mut lists) {
+            list.retain(|point| !taken.contains(&(address, point.x)));
+        }
+        let elsewhere = in_rows - lists.iter().map(Vec::len).sum::<usize>();
+        let samples = in_rounds(design, &lists, &no_word, limit);
         Self {
-            samples: in_rounds(design, &lists, &no_word, limit),
             available: (in_rows + no_word.len()) as u64,
+            present: (samples.len() + elsewhere) as u64,
+            samples,
         }
     }
 
@@ -66,33 +81,12 @@ impl Corners {
     pub const fn available(&self) -> u64 {
         self.available
     }
-}
 
-fn in_rounds(
-    design: &Design,
-    lists: &[Vec<Corner>],
-    no_word: &[Sample],
-    limit: u64,
-) -> Vec<Sample> {
-    let limit = usize::try_from(limit).unwrap_or(usize::MAX);
-    let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
-    let mut samples = Vec::new();
-    for round in 0..longest {
-        let addresses: Vec<usize> =
-            (0..lists.len()).filter(|&address| lists[address].len() > round).collect();
-        let left = limit - samples.len();
-        let taken = addresses.len().min(left) as u64;
-        samples.extend((0..taken).map(|index| {
-            let address = addresses[spread(index, taken, addresses.len() as u64) as usize];
-            let Corner { kind, x } = lists[address][round];
-            Sample { case: Case::at(design.rom(), address as u32, x), kind }
-        }));
-        if round == 0 {
-            let left = limit - samples.len();
-            samples.extend(no_word.iter().take(left));
-        }
+    /// How many of them are taken, or were among the samples beside which these stand.
+    #[must_use]
+    pub const fn present(&self) -> u64 {
+        self.present
     }
-    samples
 }
 
 /// The first and the last address without a word, with x at 1, between, at 0 and at the format's end.

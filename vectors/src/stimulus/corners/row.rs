@@ -13,6 +13,7 @@ use super::lattice::{Lattice, climb, powers_apart};
 use super::ties;
 use crate::kind::Kind;
 use crate::reference::reference;
+use crate::stimulus::rounds::Point;
 
 /// How hard the searches look.
 #[derive(Debug, Clone, Copy)]
@@ -31,15 +32,8 @@ impl Effort {
     }
 }
 
-/// A corner of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Corner {
-    pub kind: Kind,
-    pub x: i64,
-}
-
 /// The corners of one row, those that matter most first.
-pub fn corners(design: &Design, address: u32, effort: Effort) -> Vec<Corner> {
+pub fn corners(design: &Design, address: u32, effort: Effort) -> Vec<Point> {
     let survey = Survey::new(design, address, effort);
     let mut list = List::new(design);
     let ties = survey.ties();
@@ -55,10 +49,10 @@ pub fn corners(design: &Design, address: u32, effort: Effort) -> Vec<Corner> {
 }
 
 /// The corners that every row contributes first.
-fn head(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
+fn head(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     list.add(Kind::One, survey.greatest);
-    list.extend(survey.cut.map(|cut| Corner { kind: Kind::Cut, x: cut }));
-    list.extend(survey.cut.map(|cut| Corner { kind: Kind::BesideCut, x: cut - 1 }));
+    list.extend(survey.cut.map(|cut| Point { kind: Kind::Cut, x: cut }));
+    list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut - 1 }));
     list.extend(survey.worst(&survey.polynomial, Kind::WorstPolynomial));
     list.add(Kind::Zero, 0);
     list.extend(survey.worst(&survey.below, Kind::WorstTail));
@@ -66,11 +60,11 @@ fn head(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
     list.extend(ties.first().copied());
 }
 
-fn rest(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
+fn rest(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     let input = survey.design.config().input;
     list.add(Kind::BesideOne, survey.greatest + 1);
     list.add(Kind::BesideZero, 1);
-    list.extend(survey.cut.map(|cut| Corner { kind: Kind::BesideCut, x: cut + 1 }));
+    list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut + 1 }));
     for x in [survey.q, survey.q - 1, survey.q + 1] {
         list.add(Kind::Q, x);
     }
@@ -86,7 +80,7 @@ fn rest(survey: &Survey<'_>, ties: &[Corner], list: &mut List) {
 struct List {
     lowest: i64,
     highest: i64,
-    corners: Vec<Corner>,
+    corners: Vec<Point>,
 }
 
 impl List {
@@ -98,12 +92,12 @@ impl List {
     fn add(&mut self, kind: Kind, x: i64) {
         let held = (self.lowest..=self.highest).contains(&x);
         if held && self.corners.iter().all(|corner| corner.x != x) {
-            self.corners.push(Corner { kind, x });
+            self.corners.push(Point { kind, x });
         }
     }
 
-    fn extend(&mut self, corners: impl IntoIterator<Item = Corner>) {
-        for Corner { kind, x } in corners {
+    fn extend(&mut self, corners: impl IntoIterator<Item = Point>) {
+        for Point { kind, x } in corners {
             self.add(kind, x);
         }
     }
@@ -188,7 +182,7 @@ impl<'a> Survey<'a> {
         }
     }
 
-    fn worst(&self, part: &Option<Part>, kind: Kind) -> Option<Corner> {
+    fn worst(&self, part: &Option<Part>, kind: Kind) -> Option<Point> {
         let part = part.as_ref()?;
         let exponent = self.design.rows().get(self.address as usize)?.exponent;
         let config = self.design.config();
@@ -196,11 +190,11 @@ impl<'a> Survey<'a> {
             let intensity = real(self.last(x).intensity, config.output);
             (intensity - reference(exponent, x, config.input)).abs()
         };
-        self.best(part, error).map(|x| Corner { kind, x })
+        self.best(part, error).map(|x| Point { kind, x })
     }
 
     /// For each line that rounds, the x nearest to a tie, of the lattice and a few more.
-    fn ties(&self) -> Vec<Corner> {
+    fn ties(&self) -> Vec<Point> {
         let lines = ties::lines(self.design.datapath());
         let mut nearest: Vec<Option<(f64, i64)>> = vec![None; lines.len()];
         for region in [Region::Polynomial, Region::Tail] {
@@ -218,13 +212,13 @@ impl<'a> Survey<'a> {
             }
         }
         let corner = |(line, nearest): (&ties::Line, Option<(f64, i64)>)| {
-            nearest.map(|(_, x)| Corner { kind: Kind::Tie(line.register()), x })
+            nearest.map(|(_, x)| Point { kind: Kind::Tie(line.register()), x })
         };
         lines.iter().zip(nearest).filter_map(corner).collect()
     }
 
     /// The ends of the divider. The quotient rises with x, so the last 0 is found by halving.
-    fn quotients(&self) -> Vec<Corner> {
+    fn quotients(&self) -> Vec<Point> {
         let (Some(part), Some(_)) = (&self.below, self.design.datapath().divider()) else {
             return Vec::new();
         };
@@ -234,14 +228,14 @@ impl<'a> Survey<'a> {
             let middle = zero + (beyond - zero) / 2;
             if quotient(middle) == 0 { zero = middle } else { beyond = middle }
         }
-        let mut corners = vec![Corner { kind: Kind::QuotientZero, x: zero }];
+        let mut corners = vec![Point { kind: Kind::QuotientZero, x: zero }];
         let greatest = self.best(part, quotient);
-        corners.extend(greatest.map(|x| Corner { kind: Kind::QuotientGreatest, x }));
+        corners.extend(greatest.map(|x| Point { kind: Kind::QuotientGreatest, x }));
         corners
     }
 
     /// The least and greatest value of every register that a rank behind the first computes.
-    fn extremes(&self) -> Vec<Corner> {
+    fn extremes(&self) -> Vec<Point> {
         let mut registers = self.registers();
         for part in self.polynomial.iter().chain(&self.below) {
             for &x in &part.lattice.points {
@@ -267,7 +261,7 @@ impl<'a> Survey<'a> {
         list
     }
 
-    fn ends(&self, extreme: &Extreme) -> Vec<Corner> {
+    fn ends(&self, extreme: &Extreme) -> Vec<Point> {
         let Some([(_, least), (_, greatest)]) = extreme.ends else {
             return Vec::new();
         };
@@ -282,8 +276,8 @@ impl<'a> Survey<'a> {
             part.map_or(x, |part| self.refined(x, part, |x| sign * bits(x)))
         };
         vec![
-            Corner { kind: Kind::Least(rank, name), x: refined(least, -1) },
-            Corner { kind: Kind::Greatest(rank, name), x: refined(greatest, 1) },
+            Point { kind: Kind::Least(rank, name), x: refined(least, -1) },
+            Point { kind: Kind::Greatest(rank, name), x: refined(greatest, 1) },
         ]
     }
 }

@@ -1,0 +1,163 @@
+//! What a register keeps of the value that its logic gives it: as many low bits as it is wide.
+//!
+//! The data path never needs this, because the width analysis sized its registers for every value that
+//! can come. Hardware with a wrong ROM row, line or register has no such promise: there, what does not
+//! fit wraps, as it does in RTL.
+
+use crate::format::QFormat;
+use crate::rounding::Lane;
+
+use super::formats::Formats;
+
+/// A register that keeps less than it should.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Damage {
+    /// Its rank.
+    pub rank: usize,
+    /// Its name.
+    pub register: &'static str,
+    /// What it keeps: a format of fewer bits, or its own.
+    pub format: QFormat,
+    /// True when its lowest bit is always 0.
+    pub low_bit_stuck: bool,
+}
+
+/// A way to keep a value.
+pub(super) trait Keep<L>: Copy {
+    /// True when nothing is ever lost.
+    const WHOLE: bool;
+    fn keep(self, value: L) -> L;
+}
+
+/// All of it.
+#[derive(Clone, Copy)]
+pub(super) struct Whole;
+
+impl<L> Keep<L> for Whole {
+    const WHOLE: bool = true;
+    #[inline(always)]
+    fn keep(self, value: L) -> L {
+        value
+    }
+}
+
+/// The bits of a format, the highest of them the sign where it has one.
+#[derive(Clone, Copy)]
+pub(super) struct Trimmed<L> {
+    /// Lifts the format's least value to 0, so that one mask serves both signs.
+    lift: L,
+    width: L,
+    /// All ones, or all but the lowest.
+    stuck: L,
+}
+
+impl<L: Lane> Trimmed<L> {
+    fn to(format: QFormat) -> Self {
+        let half = L::ONE << (format.width() - 1);
+        let lift = -L::from_bits(format.min_bits());
+        Self { lift, width: half + (half - L::ONE), stuck: -L::ONE }
+    }
+}
+
+impl<L: Lane> Keep<L> for Trimmed<L> {
+    const WHOLE: bool = false;
+    #[inline(always)]
+    fn keep(self, value: L) -> L {
+        (((value + self.lift) & self.width) - self.lift) & self.stuck
+    }
+}
+
+/// How each register keeps its value.
+#[derive(Clone, Copy)]
+pub(super) struct Registers<K> {
+    pub v: K,
+    pub t: [K; 3],
+    pub tail_x: K,
+    pub divisor: K,
+    pub remainder: K,
+    pub digits: K,
+    /// The one stage of the divider whose remainder and digits are kept otherwise; stage 0 begins
+    /// the division.
+    pub stage: Option<(usize, K, K)>,
+}
+
+impl Registers<Whole> {
+    pub const WHOLE: Self = Self {
+        v: Whole,
+        t: [Whole; 3],
+        tail_x: Whole,
+        divisor: Whole,
+        remainder: Whole,
+        digits: Whole,
+        stage: None,
+    };
+}
+
+impl<K: Copy> Registers<K> {
+    /// What is kept of the remainder and of the digits behind a stage of the divider.
+    #[inline(always)]
+    pub fn behind_stage(&self, index: usize) -> (K, K) {
+        match self.stage {
+            Some((stage, remainder, digits)) if stage == index => (remainder, digits),
+            _ => (self.remainder, self.digits),
+        }
+    }
+}
+
+impl<L: Lane> Registers<Trimmed<L>> {
+    /// The registers of these formats. Those of a part that is not there are never asked.
+    pub fn trimmed(formats: &Formats, damage: Option<&Damage>) -> Self {
+        let any = formats.output;
+        let [v, t1, t2, t3] = formats.polynomial.map_or([any; 4], |p| [p.v, p.t1, p.t2, p.t3]);
+        let [divisor, digits] = formats.tail.map_or([any; 2], |tail| [tail.divisor, tail.digits]);
+        let registers = Self {
+            v: Trimmed::to(v),
+            t: [t1, t2, t3].map(Trimmed::to),
+            tail_x: Trimmed::to(formats.input),
+            divisor: Trimmed::to(divisor),
+            remainder: Trimmed::to(divisor),
+            digits: Trimmed::to(digits),
+            stage: None,
+        };
+        damage.map_or(registers, |damage| registers.damaged(damage))
+    }
+
+    fn damaged(mut self, damage: &Damage) -> Self {
+        let mut kept = Trimmed::to(damage.format);
+        if damage.low_bit_stuck {
+            kept.stuck = -(L::ONE + L::ONE);
+        }
+        // The divider begins in rank 2.
+        let stage = damage.rank.saturating_sub(2);
+        match damage.register {
+            "v" => self.v = kept,
+            "t1" => self.t[0] = kept,
+            "t2" => self.t[1] = kept,
+            "t3" => self.t[2] = kept,
+            "tail_x" => self.tail_x = kept,
+            "divisor" => self.divisor = kept,
+            "remainder" => self.stage = Some((stage, kept, self.digits)),
+            "digits" => self.stage = Some((stage, self.remainder, kept)),
+            _ => {}
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_is_what_a_word_of_the_format_holds() {
+        for text in ["UQ3.2", "Q3.2", "UQ1.0", "Q1.0"] {
+            let format: QFormat = text.parse().unwrap();
+            for value in -200_i64..200 {
+                let wanted = format.from_word(value as u64);
+                assert_eq!(Trimmed::<i64>::to(format).keep(value), wanted, "{text} {value}");
+                let wide = Trimmed::<i128>::to(format).keep(value.into());
+                assert_eq!(wide, i128::from(wanted), "{text} {value}");
+            }
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! Waves, with the names of the RTL.
+//!
+//! The clock has a period of 10 ns and rises at 5, 15, 25, … ns. Registers and inputs change with the
+//! rising edge, so what cycle k shows stands from 10·k − 5 to 10·k + 5 ns, its last instant being the edge at
+//! which [`Cycle`] is taken. A register that was never loaded is `x`.
+//!
+//! Here is what the waves show; how a file says it is the business of one `Sink` for each format.
+
+mod fst;
+mod vcd;
+
+use std::io::{self, Seek, Write};
+
+use hw_model::datapath::{Datapath, Register, Status};
+use hw_model::format::QFormat;
+
+use crate::run::Cycle;
+
+const HALF_PERIOD: u64 = 5;
+
+/// A file format of waves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WaveFormat {
+    /// Value change dump: text, which every viewer reads.
+    Vcd,
+    /// The binary format of GTKWave: a small part of the size.
+    Fst,
+}
+
+impl WaveFormat {
+    /// Every format.
+    pub const ALL: [Self; 2] = [Self::Vcd, Self::Fst];
+
+    /// What the names of its files end in, without the dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Vcd => "vcd",
+            Self::Fst => "fst",
+        }
+    }
+}
+
+/// A signal: its name and its bits.
+struct Signal {
+    name: String,
+    width: u32,
+}
+
+/// Signals below one name.
+struct Scope {
+    name: String,
+    signals: Vec<Signal>,
+}
+
+/// All signals: those of the top, the clock first, then those of a scope for each rank. A signal's
+/// number is its place in this order.
+struct Hierarchy {
+    top: Scope,
+    ranks: Vec<Scope>,
+}
+
+/// A file of waves under way, whose header is written.
+trait Sink {
+    /// The changes from here on are at `time`, in ns, later than those before.
+    fn time(&mut self, time: u64) -> io::Result<()>;
+
+    /// A signal changes to these bits, from the highest down, each `b'0'`, `b'1'` or `b'x'`.
+    fn change(&mut self, signal: usize, bits: &[u8]) -> io::Result<()>;
+
+    /// Writes what is left, and flushes.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}
+
+/// The bits of a signal; `None` is unknown.
+type Word = Option<u64>;
+
+/// The number of the clock, and of the signal after it.
+const CLOCK: usize = 0;
+const FIRST: usize = CLOCK + 1;
+
+/// A signal as it stands.
+struct Wire {
+    width: u32,
+    /// `None` before its first value.
+    last: Option<Word>,
+}
+
+/// Writes waves cycle by cycle.
+pub struct WaveWriter<'a> {
+    sink: Box<dyn Sink + 'a>,
+    /// Every signal but the clock.
+    wires: Vec<Wire>,
+    registers: Vec<Vec<Register>>,
+    input: QFormat,
+    output: QFormat,
+    /// Room for the bits of one signal.
+    bits: Vec<u8>,
+}
+
+impl<'a> WaveWriter<'a> {
+    /// Writes the header: one module named after the configuration, a scope inside for each rank.
+    ///
+    /// # Errors
+    /// When `output` cannot be written.
+    pub fn new<W: Write + Seek + 'a>(
+        format: WaveFormat,
+        output: W,
+        name: &str,
+        datapath: &Datapath,
+    ) -> io::Result<Self> {
+        let registers: Vec<_> =
+            (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
+        let hierarchy = Hierarchy {
+            // A hyphen has no place in an identifier.
+            top: Scope { name: name.replace('-', "_"), signals: ports(datapath) },
+            ranks: (0..).zip(&registers).map(|(rank, list)| scope(datapath, rank, list)).collect(),
+        };
+        let wire = |signal: &Signal| Wire { width: signal.width, last: None };
+        let wires = hierarchy.signals().skip(FIRST).map(wire).collect();
+        let sink: Box<dyn Sink + 'a> = match format {
+            WaveFormat::Vcd => Box::new(vcd::VcdSink::new(output, &hierarchy)?),
+            WaveFormat::Fst => Box::new(fst::FstSink::new(output, &hierarchy)?),
+        };
+        let formats = datapath.formats();
+        let (input, output) = (formats.input, formats.output);
+        Ok(Self { sink, wires, registers, input, output, bits: Vec::new() })
+    }
+
+    /// Writes one cycle: the rising edge that began it with all that changed there, and the falling
+    /// edge in its middle.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> io::Result<()> {
+        let middle = 2 * HALF_PERIOD * cycle.index;
+        if cycle.index > 0 {
+            self.sink.time(middle - HALF_PERIOD)?;
+            self.sink.change(CLOCK, b"1")?;
+            self.changes(cycle)?;
+            self.sink.time(middle)?;
+            self.sink.change(CLOCK, b"0")
+        } else {
+            self.sink.time(0)?;
+            self.sink.change(CLOCK, b"0")?;
+            self.changes(cycle)
+        }
+    }
+
+    fn changes(&mut self, cycle: &Cycle<'_>) -> io::Result<()> {
+        let words = self.words(cycle);
+        for ((signal, wire), word) in (FIRST..).zip(&mut self.wires).zip(words) {
+            if wire.last == Some(word) {
+                continue;
+            }
+            wire.last = Some(word);
+            let bit = |place: u32| match word {
+                None => b'x',
+                Some(word) if word >> place & 1 == 1 => b'1',
+                Some(_) => b'0',
+            };
+            self.bits.clear();
+            self.bits.extend((0..wire.width).rev().map(bit));
+            self.sink.change(signal, &self.bits)?;
+        }
+        Ok(())
+    }
+
+    /// The word of every signal but the clock, in their order.
+    fn words(&self, cycle: &Cycle<'_>) -> Vec<Word> {
+        let (inputs, outputs) = (cycle.inputs, cycle.outputs);
+        let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
+        let flag = |flag: bool| Some(u64::from(flag));
+        let mut words = vec![
+            flag(inputs.reset),
+            flag(inputs.in_valid),
+            flag(outputs.in_ready),
+            Some(inputs.address.into()),
+            Some(self.input.to_word(inputs.x)),
+            flag(outputs.out_valid),
+            flag(inputs.out_ready),
+            shown.then(|| self.output.to_word(outputs.intensity)),
+            shown.then_some(outputs.status.bits().into()),
+        ];
+        for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
+            words.push(flag(rank.valid));
+            words.extend(registers.iter().map(|register| {
+                rank.loaded.then(|| register.format.to_word((register.bits)(&rank.signals)))
+            }));
+        }
+        words
+    }
+
+    /// Writes the last rising edge, and flushes.
+    ///
+    /// # Errors
+    /// When the output cannot be written.
+    pub fn finish(mut self, cycles: u64) -> io::Result<()> {
+        if cycles > 0 {
+            self.sink.time(2 * HALF_PERIOD * cycles - HALF_PERIOD)?;
+            self.sink.change(CLOCK, b"1")?;
+        }
+        self.sink.finish()
+    }
+}
+
+impl Hierarchy {
+    /// Every signal, in the order of their numbers.
+    fn signals(&self) -> impl Iterator<Item = &Signal> {
+        self.top.signals.iter().chain(self.ranks.iter().flat_map(|rank| &rank.signals))
+    }
+}
+
+/// The clock and the ports.
+fn ports(datapath: &Datapath) -> Vec<Signal> {
+    let formats = datapath.formats();
+    let ports = [
+        ("clk_i", 1),
+        ("rst_i", 1),
+        ("in_valid_i", 1),
+        ("in_ready_o", 1),
+        ("address_i", datapath.rom().address_width()),
+        ("x_i", formats.input.width()),
+        ("out_valid_o", 1),
+        ("out_ready_i", 1),
+        ("intensity_o", formats.output.width()),
+        ("status_o", Status::WIDTH),
+    ];
+    ports.map(|(name, width)| Signal { name: name.to_owned(), width }).into()
+}
+
+/// The valid flag and the registers of a rank.
+fn scope(datapath: &Datapath, rank: usize, registers: &[Register]) -> Scope {
+    let mut signals = vec![Signal { name: "valid_q".to_owned(), width: 1 }];
+    signals.extend(registers.iter().map(|register| Signal {
+        name: format!("{}_q", register.name),
+        width: register.format.width(),
+    }));
+    Scope { name: datapath.rank_name(rank), signals }
+}

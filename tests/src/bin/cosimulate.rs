@@ -1,0 +1,261 @@
+//! `make rtl`: every preset's RTL in every simulator, against the model.
+//!
+//! Vectors with stalls, bubbles and resets; random cycles in which every register is compared; a small
+//! configuration exhaustively; a corrupted vector and planted faults, which must be found. Ends with
+//! what was compared, and fails when anything differs or nothing was compared.
+
+use std::io::BufReader;
+use std::process::{ExitCode, Stdio};
+
+use blysk_tests::rtl::faults::{FAULTS, Fault};
+use blysk_tests::rtl::simulators::{self, Simulator};
+use blysk_tests::rtl::waves;
+use blysk_tests::rtl::workspace::{Emitted, copy, emit};
+use blysk_tests::rtl::{Failure, failed};
+use hw_model::config::Config;
+use hw_model::design::Design;
+use hw_model::presets;
+use rayon::prelude::*;
+use sim::agreement::compare;
+use vectors::Strategy;
+
+/// Random cycles in which every register is compared.
+const VERILATOR_CYCLES: u64 = 1_000_000;
+/// Icarus is slower, and shows unknown values.
+const ICARUS_CYCLES: u64 = 20_000;
+/// Vectors of each preset.
+const VECTORS: u64 = 4096;
+
+/// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur.
+const SMALL: [(&str, &str); 2] = [
+    (
+        "small",
+        r#"{"name": "small", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "rounding": "nearest_even"}"#,
+    ),
+    (
+        "small_tail",
+        r#"{"name": "small_tail", "method": "hermite", "exponents": "1..=16", "input": "UQ1.7",
+            "output": "UQ0.8", "form": "power", "tail": "rational", "rounding": "toward_zero",
+            "error_budget_ulp": 2, "quotient_bits_per_stage": 3}"#,
+    ),
+];
+
+/// What was compared.
+#[derive(Clone, Copy, Default)]
+struct Totals {
+    vectors: u64,
+    cycles: u64,
+    registers: u64,
+    runs: u64,
+}
+
+impl std::ops::Add for Totals {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            vectors: self.vectors + other.vectors,
+            cycles: self.cycles + other.cycles,
+            registers: self.registers + other.registers,
+            runs: self.runs + other.runs,
+        }
+    }
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(totals) if totals.vectors > 0 && totals.registers > 0 => {
+            println!(
+                "0 mismatches: {} runs, {} vectors, {} cycles, {} registers and results compared",
+                totals.runs, totals.vectors, totals.cycles, totals.registers
+            );
+            ExitCode::SUCCESS
+        }
+        Ok(_) => {
+            eprintln!("error: nothing was compared");
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<Totals, Failure> {
+    let simulators = simulators::all()?;
+    let names: Vec<&str> = simulators.iter().map(|simulator| simulator.name.as_str()).collect();
+    println!("{}", names.join(", "));
+    println!(
+        "{:<12} {:<18} {:>9} {:>10} {:>13}",
+        "preset", "simulator", "vectors", "cycles", "compared"
+    );
+    let presets = presets::ALL.par_iter().map(|preset| {
+        let design = design(preset.json)?;
+        let emitted = emit(&design, preset.name, Strategy::Mixed, VECTORS)?;
+        everything(&emitted, preset.name, &simulators, true)
+    });
+    let small = SMALL.par_iter().map(|(name, json)| {
+        let design = design(json)?;
+        let emitted = emit(&design, name, Strategy::Exhaustive, 0)?;
+        everything(&emitted, name, &simulators, false)
+    });
+    let total: Totals = presets
+        .chain(small)
+        .collect::<Result<Vec<_>, _>>()?
+        .into_iter()
+        .fold(Totals::default(), |sum, part| sum + part);
+    planted(&simulators[0])?;
+    Ok(total)
+}
+
+fn design(json: &str) -> Result<Design, Failure> {
+    let config = Config::from_json(json).map_err(|error| Failure(error.to_string()))?;
+    Design::new(config).map_err(|error| Failure(error.to_string()))
+}
+
+fn everything(
+    emitted: &Emitted<'_>,
+    name: &str,
+    simulators: &[Simulator],
+    random: bool,
+) -> Result<Totals, Failure> {
+    simulators::yosys_reads(&emitted.directory)?;
+    let mut totals = Totals::default();
+    for (index, simulator) in simulators.iter().enumerate() {
+        let part = vectors(emitted, name, simulator)?;
+        control(emitted, name, simulator)?;
+        totals = totals + part;
+        if !simulator.is_icarus() {
+            simulator.lint(&emitted.directory)?;
+        }
+        if index == 1 {
+            let waves = waves::compare(emitted, simulator)?;
+            println!("{name:<12} waves (VCD, FST) {:>22} {:>13}", waves.edges, waves.values);
+            totals.registers += waves.values;
+        }
+        // The long run is in the first Verilator; the others show that it is the same there.
+        if random {
+            let cycles = if index == 1 { VERILATOR_CYCLES } else { ICARUS_CYCLES };
+            totals = totals + registers(emitted, name, simulator, cycles)?;
+        }
+    }
+    Ok(totals)
+}
+
+/// All vectors, once with and once without stalls, bubbles and resets.
+fn vectors(emitted: &Emitted<'_>, name: &str, simulator: &Simulator) -> Result<Totals, Failure> {
+    let mut totals = Totals::default();
+    for plusargs in ["+seed=1", "+plain"] {
+        let verdict = simulator.run(&emitted.directory, plusargs)?;
+        if verdict.last != format!("PASS {} vectors", emitted.vectors) {
+            return failed(format!("{name}, {}: {}", simulator.name, verdict.last));
+        }
+        totals = totals
+            + Totals {
+                vectors: emitted.vectors,
+                cycles: verdict.count(" cycles"),
+                registers: verdict.count(" values compared"),
+                runs: 1,
+            };
+    }
+    show(name, simulator, &totals);
+    Ok(totals)
+}
+
+/// A corrupted vector must be found.
+fn control(emitted: &Emitted<'_>, name: &str, simulator: &Simulator) -> Result<(), Failure> {
+    let verdict = simulator.run(&emitted.directory, "+expected=negative_control.mem")?;
+    if verdict.last.starts_with("FAIL vector") {
+        return Ok(());
+    }
+    failed(format!(
+        "{name}, {}: the corrupted vector was not found: {}",
+        simulator.name, verdict.last
+    ))
+}
+
+/// Random cycles, every register of which is compared with the clocked pipeline's.
+fn registers(
+    emitted: &Emitted<'_>,
+    name: &str,
+    simulator: &Simulator,
+    cycles: u64,
+) -> Result<Totals, Failure> {
+    let mut command = simulator.testbench(&emitted.directory);
+    command.arg(format!("+registers={cycles}")).stdout(Stdio::piped());
+    let mut child = command
+        .spawn()
+        .map_err(|error| Failure(format!("cannot run {}: {error}", simulator.name)))?;
+    let Some(output) = child.stdout.take() else {
+        return failed("no output to compare");
+    };
+    let agreement = compare(emitted.design.datapath(), BufReader::with_capacity(1 << 20, output))
+        .map_err(|error| Failure(format!("{name}, {}: {error}", simulator.name)))?;
+    let status = child.wait().map_err(|error| Failure(error.to_string()))?;
+    if !status.success() || agreement.cycles != cycles {
+        return failed(format!(
+            "{name}, {}: {} of {cycles} random cycles were compared",
+            simulator.name, agreement.cycles
+        ));
+    }
+    for (what, count) in [
+        ("stall", agreement.stalls),
+        ("bubble", agreement.bubbles),
+        ("reset", agreement.resets),
+        ("result", agreement.results),
+    ] {
+        if count < cycles / 1000 {
+            return failed(format!("{name}: only {count} cycles with a {what} in {cycles}"));
+        }
+    }
+    let totals = Totals { vectors: 0, cycles, registers: agreement.registers, runs: 1 };
+    show(name, simulator, &totals);
+    Ok(totals)
+}
+
+fn show(name: &str, simulator: &Simulator, totals: &Totals) {
+    let Totals { vectors, cycles, registers, .. } = totals;
+    println!("{name:<12} {:<18} {vectors:>9} {cycles:>10} {registers:>13}", simulator.name);
+}
+
+/// Every planted fault must be reported, and named.
+fn planted(simulator: &Simulator) -> Result<(), Failure> {
+    println!("planted faults, in {}:", simulator.name);
+    let verdicts: Vec<String> = FAULTS
+        .par_iter()
+        .enumerate()
+        .map(|(index, fault)| find(simulator, index, fault))
+        .collect::<Result<_, _>>()?;
+    for (fault, verdict) in FAULTS.iter().zip(&verdicts) {
+        println!("  {} ({}): {}", fault.name, fault.preset, brief(verdict));
+    }
+    println!(
+        "{} of {} planted faults were reported with their stage",
+        verdicts.len(),
+        FAULTS.len()
+    );
+    Ok(())
+}
+
+fn find(simulator: &Simulator, index: usize, fault: &Fault) -> Result<String, Failure> {
+    let preset = simulators::repository().join("target/rtl").join(fault.preset);
+    let directory = copy(&preset, &format!("fault-{index}"))?;
+    fault.plant(&directory)?;
+    let verdict = simulator.run(&directory, "+seed=1")?;
+    if verdict.passed() {
+        return failed(format!("the planted fault \"{}\" was not found", fault.name));
+    }
+    if !verdict.last.contains(fault.named) {
+        return failed(format!(
+            "the planted fault \"{}\" should be in {}, and was reported as: {}",
+            fault.name, fault.named, verdict.last
+        ));
+    }
+    Ok(verdict.last)
+}
+
+/// What follows the vector's own description.
+fn brief(verdict: &str) -> &str {
+    verdict.split_once(", cycle ").map_or(verdict, |(_, rest)| rest)
+}

@@ -1,0 +1,295 @@
+//! `make mutants`: do the emitted vectors catch wrong RTL?
+//!
+//! mutants <preset>... ; with none named, every preset. Writes `results/mutants/<preset>.csv` (every
+//! mutant, and what each bundle's testbench found) and `matrix.csv` (the kill matrix).
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::ExitCode;
+
+use blysk_tests::rtl::mutants::{Bench, Outcome, edits, netlist, own_sources, preset, rom};
+use blysk_tests::rtl::simulators::{self, Simulator, repository};
+use blysk_tests::rtl::{Failure, failed};
+use hw_model::design::Design;
+use rayon::prelude::*;
+use vectors::faults::{Compact, Fault, Workers};
+use vectors::{Bundle, Strategy};
+
+/// Netlist mutations of each preset, and the seed that chooses them.
+const MUTATIONS: usize = 500;
+const SEED: u64 = 1;
+/// How long a proof of equivalence may take, in seconds.
+const PROOF_SECONDS: u32 = 60;
+/// Vectors of the default bundle.
+const VECTORS: u64 = 4096;
+
+fn main() -> ExitCode {
+    let named: Vec<String> = std::env::args().skip(1).collect();
+    let all = hw_model::presets::ALL.map(|preset| preset.name.to_owned());
+    let presets = if named.is_empty() { all.to_vec() } else { named };
+    match run(&presets) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(presets: &[String]) -> Result<bool, Failure> {
+    let simulators = simulators::all()?;
+    let (icarus, verilator) = (&simulators[0], &simulators[1]);
+    let results = repository().join("results/mutants");
+    std::fs::create_dir_all(&results).map_err(|error| Failure(error.to_string()))?;
+    let mut matrix = Matrix::default();
+    let mut good = true;
+    for name in presets {
+        let mutants = Campaign { name, design: &preset(name)?, icarus, verilator }.run()?;
+        write(&results.join(format!("{name}.csv")), &mutants)?;
+        good &= judge(name, &mutants);
+        matrix.add(name, &mutants);
+    }
+    matrix.write(&results.join("matrix.csv"))?;
+    println!("Every mutant and the kill matrix are in {}.", results.display());
+    Ok(good)
+}
+
+/// A mutant with what became of it in both bundles.
+struct Mutant {
+    class: &'static str,
+    name: String,
+    by_default: Option<String>,
+    by_compact: Option<String>,
+    /// Why it may survive; none where it should be killed.
+    equivalent: Option<&'static str>,
+}
+
+impl Mutant {
+    fn fate(&self, killed_by: Option<&String>) -> &'static str {
+        match (killed_by, self.equivalent) {
+            (Some(_), _) => "killed",
+            (None, Some(_)) => "equivalent",
+            (None, None) => "escaped",
+        }
+    }
+}
+
+const BY_INPUTS: &str = "every input gives the same answer (the model, exhaustively)";
+const BY_PROOF: &str = "the netlists are proved equal (SAT, k-induction)";
+
+struct Campaign<'a> {
+    name: &'a str,
+    design: &'a Design,
+    icarus: &'a Simulator,
+    verilator: &'a Simulator,
+}
+
+struct Cores;
+
+impl Workers for Cores {
+    fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
+        (0..count).into_par_iter().map(&job).collect()
+    }
+}
+
+impl Campaign<'_> {
+    fn run(&self) -> Result<Vec<Mutant>, Failure> {
+        println!("{}: choosing vectors", self.name);
+        let default = self.bundle(Strategy::Mixed)?;
+        let smallest = self.bundle(Strategy::Compact)?;
+        let equivalent: Vec<Fault> =
+            smallest.compact().into_iter().flat_map(Compact::equivalent).collect();
+        let (default, smallest) =
+            (self.bench("default", &default)?, self.bench("compact", &smallest)?);
+        let mut mutants = self.rom(&default, &smallest, &equivalent)?;
+        mutants.extend(self.edits(&default, &smallest, &equivalent)?);
+        mutants.extend(self.netlist(&default, &smallest)?);
+        Ok(mutants)
+    }
+
+    fn bundle(&self, strategy: Strategy) -> Result<Bundle<'_>, Failure> {
+        Bundle::with_workers(self.design, strategy, VECTORS, 1, "make mutants", &Cores)
+            .map_err(|error| Failure(error.to_string()))
+    }
+
+    fn bench(&self, kind: &str, bundle: &Bundle<'_>) -> Result<Bench, Failure> {
+        let bench = Bench::new(&format!("mutants-{}-{kind}", self.name), bundle)?;
+        bench.build(self.verilator, &own_sources())?;
+        let place = bench.place("right", &[])?;
+        match bench.run(self.verilator, &place, &[])? {
+            None => Ok(bench),
+            Some(found) => failed(format!("{}: the right RTL fails: {found}", self.name)),
+        }
+    }
+
+    fn rom(
+        &self,
+        default: &Bench,
+        smallest: &Bench,
+        equivalent: &[Fault],
+    ) -> Result<Vec<Mutant>, Failure> {
+        let faults = rom::faults(self.design);
+        println!("{}: {} wrong ROMs", self.name, faults.len());
+        let by_default = rom::run(default, self.verilator, self.design, &faults)?;
+        let by_compact = rom::run(smallest, self.verilator, self.design, &faults)?;
+        let proofs = faults.iter().map(|fault| equivalent.contains(fault).then_some(BY_INPUTS));
+        Ok(merge("ROM", by_default, by_compact, proofs))
+    }
+
+    /// Each edit is compiled on its own, in Icarus, which compiles fastest.
+    fn edits(
+        &self,
+        default: &Bench,
+        smallest: &Bench,
+        equivalent: &[Fault],
+    ) -> Result<Vec<Mutant>, Failure> {
+        let edits = edits::edits(self.design.datapath());
+        println!("{}: {} wrong lines", self.name, edits.len());
+        let run = |bench: &Bench| -> Result<Vec<Outcome>, Failure> {
+            edits.par_iter().map(|edit| bench.run_edit(self.icarus, edit)).collect()
+        };
+        let proofs = edits
+            .iter()
+            .map(|edit| edit.fault.filter(|fault| equivalent.contains(fault)).map(|_| BY_INPUTS));
+        Ok(merge("line", run(default)?, run(smallest)?, proofs))
+    }
+
+    fn netlist(&self, default: &Bench, smallest: &Bench) -> Result<Vec<Mutant>, Failure> {
+        println!("{}: {MUTATIONS} netlist mutations, seed {SEED}", self.name);
+        let mut found = Vec::new();
+        let mut list = Vec::new();
+        for bench in [default, smallest] {
+            list = netlist::mutate(&bench.directory, MUTATIONS, SEED)?;
+            bench.clear(self.verilator)?;
+            bench.build(self.verilator, &netlist::sources())?;
+            found.push(netlist::run(bench, self.verilator, &list)?);
+        }
+        let by_compact = found.pop().unwrap_or_default();
+        let by_default = found.pop().unwrap_or_default();
+        let survivors: Vec<bool> = by_default
+            .iter()
+            .zip(&by_compact)
+            .map(|(default, compact)| default.killed_by.is_none() && compact.killed_by.is_none())
+            .collect();
+        let proofs: Vec<Option<&'static str>> = list
+            .par_iter()
+            .zip(survivors)
+            .map(|(mutation, survives)| {
+                let proved = survives
+                    && netlist::is_equivalent(&default.directory, mutation, PROOF_SECONDS)?
+                        == Some(true);
+                Ok(proved.then_some(BY_PROOF))
+            })
+            .collect::<Result<_, Failure>>()?;
+        Ok(merge("netlist", by_default, by_compact, proofs.into_iter()))
+    }
+}
+
+fn merge(
+    class: &'static str,
+    by_default: Vec<Outcome>,
+    by_compact: Vec<Outcome>,
+    proofs: impl Iterator<Item = Option<&'static str>>,
+) -> Vec<Mutant> {
+    let outcomes = by_default.into_iter().zip(by_compact).zip(proofs);
+    outcomes
+        .map(|((default, compact), equivalent)| Mutant {
+            class,
+            name: default.name,
+            by_default: default.killed_by,
+            by_compact: compact.killed_by,
+            equivalent,
+        })
+        .collect()
+}
+
+/// Prints the rates and the survivors; false where a bundle catches too little.
+fn judge(preset: &str, mutants: &[Mutant]) -> bool {
+    let rate = |counted: &dyn Fn(&Mutant) -> bool, by: fn(&Mutant) -> Option<&String>| {
+        let wrong = mutants
+            .iter()
+            .filter(|mutant| counted(mutant) && mutant.fate(by(mutant)) != "equivalent");
+        let (all, killed) = wrong.fold((0_u64, 0_u64), |(all, killed), mutant| {
+            (all + 1, killed + u64::from(by(mutant).is_some()))
+        });
+        (killed, all)
+    };
+    let (killed, all) = rate(&|_| true, |mutant| mutant.by_default.as_ref());
+    let (by_compact, of_model) = rate(&|m| m.class != "netlist", |m| m.by_compact.as_ref());
+    let percent = 100.0 * killed as f64 / all.max(1) as f64;
+    println!(
+        "{preset}: {VECTORS} default vectors kill {killed} of {all} wrong ones ({percent:.2} %); \
+         the compact set kills {by_compact} of {of_model} of the fault model"
+    );
+    for mutant in mutants.iter().filter(|m| m.by_default.is_none() || m.by_compact.is_none()) {
+        let place = match (&mutant.by_default, &mutant.by_compact) {
+            (None, None) => "both bundles",
+            (None, Some(_)) => "the default bundle",
+            _ => "the compact set",
+        };
+        let why = mutant.equivalent.unwrap_or("not shown to be equivalent: an escape");
+        println!("  {} survives {place}: {why}", mutant.name);
+    }
+    all > 0 && percent >= 99.0 && of_model > 0 && by_compact == of_model
+}
+
+fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
+    let written = || -> csv::Result<()> {
+        let mut csv = csv::Writer::from_path(path)?;
+        csv.write_record(["class", "mutant", "default", "by", "compact", "by", "why"])?;
+        for mutant in mutants {
+            let (default, compact) = (mutant.by_default.as_ref(), mutant.by_compact.as_ref());
+            csv.write_record([
+                mutant.class,
+                &mutant.name,
+                mutant.fate(default),
+                default.map_or("", String::as_str),
+                mutant.fate(compact),
+                compact.map_or("", String::as_str),
+                mutant.equivalent.unwrap_or(""),
+            ])?;
+        }
+        csv.flush()?;
+        Ok(())
+    };
+    written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+}
+
+/// How many of each class met each fate, by preset and bundle.
+#[derive(Default)]
+struct Matrix {
+    cells: BTreeMap<(String, &'static str, &'static str), BTreeMap<&'static str, u64>>,
+}
+
+impl Matrix {
+    fn add(&mut self, preset: &str, mutants: &[Mutant]) {
+        for mutant in mutants {
+            for (bundle, by) in [("default", &mutant.by_default), ("compact", &mutant.by_compact)] {
+                let cell = self.cells.entry((preset.to_owned(), mutant.class, bundle)).or_default();
+                *cell.entry(mutant.fate(by.as_ref())).or_default() += 1;
+            }
+        }
+    }
+
+    fn write(&self, path: &Path) -> Result<(), Failure> {
+        let written = || -> csv::Result<()> {
+            let mut csv = csv::Writer::from_path(path)?;
+            csv.write_record(["preset", "class", "bundle", "killed", "equivalent", "escaped"])?;
+            for ((preset, class, bundle), fates) in &self.cells {
+                let count = |fate| fates.get(fate).copied().unwrap_or(0).to_string();
+                csv.write_record([
+                    preset,
+                    *class,
+                    *bundle,
+                    &count("killed"),
+                    &count("equivalent"),
+                    &count("escaped"),
+                ])?;
+            }
+            csv.flush()?;
+            Ok(())
+        };
+        written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+    }
+}

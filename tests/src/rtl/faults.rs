@@ -1,0 +1,97 @@
+//! Single-line changes of the RTL that a testbench must report, with the stage they are in.
+
+use std::path::Path;
+
+use super::{Failure, failed};
+
+/// One wrong line.
+#[derive(Debug, Clone, Copy)]
+pub struct Fault {
+    /// What is wrong, in a few words.
+    pub name: &'static str,
+    /// The preset it is planted in.
+    pub preset: &'static str,
+    /// The file.
+    pub file: &'static str,
+    /// The right text, which stands there once.
+    pub right: &'static str,
+    /// The wrong text.
+    pub wrong: &'static str,
+    /// What the verdict must name: a register, or the handshake.
+    pub named: &'static str,
+}
+
+macro_rules! fault {
+    ($name:literal, $preset:literal, $file:literal, $right:literal => $wrong:literal, $named:literal) => {
+        Fault {
+            name: $name,
+            preset: $preset,
+            file: $file,
+            right: $right,
+            wrong: $wrong,
+            named: $named,
+        }
+    };
+}
+
+/// The faults: arithmetic and handshake, one line each.
+pub const FAULTS: &[Fault] = &[
+    fault!("rounding dropped in every line", "compact", "blysk_round_shift.sv",
+        "assign added = HALF;" => "assign added = '0;", "front_end.v"),
+    fault!("stage 1 adds", "compact", "blysk.sv",
+        ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED)" => ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(0)", "stage1.t1"),
+    fault!("stage 2 shifts the addend one place less", "compact", "blysk.sv",
+        ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP)" => ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP - 1)", "stage2.t2"),
+    fault!("stage 3 drops one bit more", "compact", "blysk.sv",
+        ".DROP(blysk_pkg::T3_DROP)" => ".DROP(blysk_pkg::T3_DROP + 1)", "stage3.t3"),
+    fault!("cut off by one", "compact", "blysk_front_end.sv",
+        "'(x) >= " => "'(x) > ", "front_end."),
+    fault!("no clamp above 1", "paper", "blysk_clamp.sv",
+        "assign above = !below && t3_i > blysk_pkg::T3_WIDTH'(blysk_pkg::OUTPUT_GREATEST);" => "assign above = 1'b0;", "clamp."),
+    fault!("x above 1 not clamped", "compact", "blysk_front_end.sv",
+        "above_one ? blysk_pkg::X_GREATEST :" => "1'b0 ? blysk_pkg::X_GREATEST :", "front_end.v"),
+    fault!("ROM reads a row too far", "compact", "blysk_rom.sv",
+        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0" => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
+    fault!("v does not wait for stage 3", "compact", "blysk.sv",
+        ".value_i(v_at_2), .value_o(v_at_3)" => ".value_i(v), .value_o(v_at_3)", "stage2.v"),
+    fault!("the pipeline does not stall", "compact", "blysk_handshake.sv",
+        "out_ready_i || !(&valid_q[RANKS-1:rank])" => "1'b1", "handshake"),
+    fault!("bubbles do not collapse", "compact", "blysk_handshake.sv",
+        "out_ready_i || !(&valid_q[RANKS-1:rank])" => "out_ready_i || !valid_q[RANKS-1]", "handshake"),
+    fault!("reset leaves what is in flight", "compact", "blysk_handshake.sv",
+        "if (rst_i) valid_q <= '0;" => "if (rst_i) valid_q <= valid_d;", "handshake"),
+    fault!("ready in reset", "compact", "blysk_handshake.sv",
+        "assign in_ready_o  = advance[0] && !rst_i;" => "assign in_ready_o  = advance[0];", "handshake"),
+    fault!("a stage loads while it stalls", "compact", "blysk_stage.sv",
+        "if (load_i) t_q <= t_d;" => "t_q <= t_d;", "stage"),
+    fault!("the divisor adds", "paper", "blysk_tail.sv",
+        ".SUBTRACT(1)" => ".SUBTRACT(0)", "divisor"),
+    fault!("a quotient bit wrong at equality", "schlick", "blysk_tail_digits.sv",
+        "doubled >= {1'b0, divisor_i}" => "doubled > {1'b0, divisor_i}", "remainder"),
+    fault!("no sticky bit", "paper", "blysk_clamp.sv",
+        "{2'b00, digits_i, |remainder_i}" => "{2'b00, digits_i, 1'b1}", "clamp.intensity"),
+    fault!("polynomial and tail swapped", "paper", "blysk_clamp.sv",
+        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;" => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
+];
+
+impl Fault {
+    /// Plants the fault into a directory of RTL.
+    ///
+    /// # Errors
+    /// When the right text does not stand there exactly once.
+    pub fn plant(&self, directory: &Path) -> Result<(), Failure> {
+        let path = directory.join(self.file);
+        let text = std::fs::read_to_string(&path)
+            .map_err(|error| Failure(format!("cannot read {}: {error}", path.display())))?;
+        if text.matches(self.right).count() != 1 {
+            return failed(format!(
+                "the fault \"{}\" fits {} places of {}, not one",
+                self.name,
+                text.matches(self.right).count(),
+                self.file
+            ));
+        }
+        std::fs::write(&path, text.replace(self.right, self.wrong))
+            .map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+    }
+}

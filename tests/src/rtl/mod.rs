@@ -1,0 +1,27 @@
+//! The RTL in real simulators.
+
+pub mod exhaustive;
+pub mod faults;
+pub mod mutants;
+pub mod simulators;
+pub mod waves;
+pub mod workspace;
+
+use std::fmt;
+
+/// A run that did not do what it must, in words.
+#[derive(Debug)]
+pub struct Failure(pub String);
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// A failure with this text.
+pub fn failed<T>(text: impl Into<String>) -> Result<T, Failure> {
+    Err(Failure(text.into()))
+}

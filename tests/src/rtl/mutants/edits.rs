@@ -1,0 +1,159 @@
+//! Mutants that are other lines of the RTL: the fault model, written into the sources.
+
+use hw_model::datapath::Datapath;
+use hw_model::rounding::Rounding;
+use vectors::faults::{
+    DataRegister, Defect, Fault, HANDSHAKE, Logic, RoundingLine, pipeline_faults,
+};
+
+/// A change of one place of one file.
+#[derive(Debug, Clone)]
+pub struct Edit {
+    /// The fault's name.
+    pub name: String,
+    /// The fault of the model that this is; none where a vector on its own cannot show it.
+    pub fault: Option<Fault>,
+    /// The file.
+    pub file: &'static str,
+    /// What stands there, once.
+    pub right: String,
+    /// What it becomes.
+    pub wrong: String,
+}
+
+/// Every fault of the pipeline that is a change of its sources. The registers of later ranks of the
+/// divider are not: one line of the RTL makes them all.
+#[must_use]
+pub fn edits(datapath: &Datapath) -> Vec<Edit> {
+    let of_model = pipeline_faults(datapath).into_iter().filter_map(|fault| {
+        let (file, right, wrong) = match fault {
+            Fault::Rounding(line, mode) => rounding(datapath, line, mode),
+            Fault::Register(rank, register, defect) => {
+                self::register(datapath, rank, register, defect)?
+            }
+            Fault::Logic(logic) => self::logic(logic)?,
+            Fault::Field(_) | Fault::Swap(_) => return None,
+        };
+        Some(Edit { name: fault.to_string(), fault: Some(fault), file, right, wrong })
+    });
+    of_model.chain(handshake()).collect()
+}
+
+type Change = (&'static str, String, String);
+
+fn change(file: &'static str, right: &str, wrong: &str) -> Change {
+    (file, right.to_owned(), wrong.to_owned())
+}
+
+fn number(mode: Rounding) -> u8 {
+    match mode {
+        Rounding::Floor => 0,
+        Rounding::NearestUp => 1,
+        Rounding::NearestEven => 2,
+        Rounding::TowardZero => 3,
+    }
+}
+
+fn rounding(datapath: &Datapath, line: RoundingLine, mode: Rounding) -> Change {
+    let (name, own) = match line {
+        RoundingLine::Variable => ("U", datapath.front_end().rounding()),
+        RoundingLine::Stage(0) => ("T1", datapath.stages().map(|s| s[0].rounding())),
+        RoundingLine::Stage(1) => ("T2", datapath.stages().map(|s| s[1].rounding())),
+        RoundingLine::Stage(_) => ("T3", datapath.stages().map(|s| s[2].rounding())),
+        RoundingLine::Divisor => ("DIVISOR", datapath.divider().map(|d| d.divisor.rounding())),
+        RoundingLine::Quotient => ("QUOTIENT", datapath.divider().map(|d| d.rounding)),
+    };
+    let own = number(own.unwrap_or_default());
+    let right = format!("{name}_ROUNDING = {own};");
+    (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", number(mode)))
+}
+
+/// Where a register is read, or shown to those who read it.
+fn register(
+    datapath: &Datapath,
+    rank: usize,
+    register: DataRegister,
+    defect: Defect,
+) -> Option<Change> {
+    const FIRST_OF_DIVIDER: usize = 2;
+    let held = datapath.registers(rank).into_iter().find(|held| held.name == register.name())?;
+    let (file, before, signal, after) = match register {
+        DataRegister::V => ("blysk_front_end.sv", "assign v_o = ", "v_q", ";"),
+        DataRegister::T(0) => ("blysk.sv", ".multiplicand_i(", "t1", ")"),
+        DataRegister::T(1) => ("blysk.sv", ".multiplicand_i(", "t2", ")"),
+        DataRegister::T(_) => ("blysk.sv", ".t3_i(", "t3_waited", ")"),
+        DataRegister::TailX => ("blysk_front_end.sv", "assign tail_x_o = ", "tail_x_q", ";"),
+        DataRegister::Remainder if rank == FIRST_OF_DIVIDER => {
+            ("blysk_tail.sv", "assign remainder[DIVISOR_BITS-1:0] = ", "remainder_q", ";")
+        }
+        DataRegister::Digits if rank == FIRST_OF_DIVIDER => {
+            ("blysk_tail.sv", "assign digits[DIGIT_BITS-1:0]      = ", "digits_q", ";")
+        }
+        DataRegister::Intensity => ("blysk_clamp.sv", "assign intensity_o = ", "intensity_q", ";"),
+        _ => return None,
+    };
+    let top = held.format.width() - 1;
+    let wrong = match defect {
+        // The bit below is the new sign, or there is none.
+        Defect::Short if held.format.is_signed() => {
+            format!("{{{signal}[{}], {signal}[{}:0]}}", top - 1, top - 1)
+        }
+        Defect::Short => format!("{{1'b0, {signal}[{}:0]}}", top - 1),
+        Defect::LowBitStuck if top == 0 => "1'b0".to_owned(),
+        Defect::LowBitStuck => format!("{{{signal}[{top}:1], 1'b0}}"),
+    };
+    Some((file, format!("{before}{signal}{after}"), format!("{before}{wrong}{after}")))
+}
+
+fn logic(logic: Logic) -> Option<Change> {
+    let front_end = |right: &str, wrong: &str| Some(change("blysk_front_end.sv", right, wrong));
+    let clamp = |right: &str, wrong: &str| Some(change("blysk_clamp.sv", right, wrong));
+    match logic {
+        Logic::CutExclusive => front_end("'(x) >= ", "'(x) > "),
+        Logic::ShiftMore => front_end("<< shift_i;", "<< shift_i << 1;"),
+        Logic::ShiftLess => {
+            front_end("<< shift_i;", "<< (shift_i == '0 ? shift_i : shift_i - 1'b1);")
+        }
+        Logic::NoInputClamp => front_end("above_one ? blysk_pkg::X_GREATEST", "1'b0 ? '0"),
+        Logic::NegativeAsUnsigned => None,
+        Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),
+        Logic::NoClampBelow => clamp("below ? '0 :", "1'b0 ? '0 :"),
+        Logic::NoClampAbove => {
+            clamp("above ? blysk_pkg::OUTPUT_GREATEST :", "1'b0 ? blysk_pkg::OUTPUT_GREATEST :")
+        }
+        Logic::NoQuotientClamp => {
+            clamp("assign quotient = rounded >", "assign quotient = 1'b0 && rounded >")
+        }
+        Logic::NoFlag(flag) => {
+            let place = flag.bits().trailing_zeros();
+            let mask = format!("status_q & ~(blysk_pkg::STATUS_WIDTH'(1) << {place})");
+            clamp("= status_q;", &format!("= {mask};"))
+        }
+        Logic::DigitMissing => Some(change(
+            "blysk_tail.sv",
+            ".COUNT(COUNT)",
+            ".COUNT(step == STEPS - 1 ? COUNT - 1 : COUNT)",
+        )),
+    }
+}
+
+/// Latency one more and one less, and a stall that is not kept.
+fn handshake() -> impl Iterator<Item = Edit> {
+    const VALID: &str = "assign out_valid_o = valid_q[RANKS-1];";
+    let changes = [
+        (
+            VALID,
+            "logic late_q;\n  always_ff @(posedge clk_i) late_q <= valid_q[RANKS-1];\n  \
+             assign out_valid_o = late_q;",
+        ),
+        (VALID, "assign out_valid_o = valid_q[RANKS-2];"),
+        ("out_ready_i || !(&valid_q[RANKS-1:rank])", "1'b1"),
+    ];
+    HANDSHAKE.into_iter().zip(changes).map(|(name, (right, wrong))| Edit {
+        name: name.to_owned(),
+        fault: None,
+        file: "blysk_handshake.sv",
+        right: right.to_owned(),
+        wrong: wrong.to_owned(),
+    })
+}

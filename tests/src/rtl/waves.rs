@@ -1,0 +1,167 @@
+//! Verilator's own dump of a run against the waves of the clocked pipeline for the same inputs.
+//!
+//! The inputs of every cycle are taken from Verilator's dump; the pipeline runs with them and writes VCD
+//! and FST; all three files are read back by the same independent reader.
+
+use std::fs::File;
+use std::path::Path;
+
+use hw_model::datapath::Datapath;
+use sim::pipeline::{Inputs, Pipeline};
+use sim::run::Cycle;
+use sim::waves::{WaveFormat, WaveWriter};
+use vectors::rtl::probes::probes;
+
+use super::simulators::Simulator;
+use super::workspace::Emitted;
+use super::{Failure, failed};
+use crate::waves::Waves;
+
+/// What was compared.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Compared {
+    /// Rising edges.
+    pub edges: u64,
+    /// Values of signals before an edge.
+    pub values: u64,
+}
+
+/// Lets the testbench dump a run with stalls, bubbles and resets, and compares.
+///
+/// # Errors
+/// The first difference; when a signal is missing, or nothing was compared.
+pub fn compare(emitted: &Emitted<'_>, simulator: &Simulator) -> Result<Compared, Failure> {
+    let verdict = simulator.run(&emitted.directory, "+seed=3 +waves=simulator.vcd")?;
+    if !verdict.passed() {
+        return failed(verdict.last);
+    }
+    let dump = emitted.directory.join("simulator.vcd");
+    let dumped = Dump::read(&dump)?;
+    let datapath = emitted.design.datapath();
+    let inputs = dumped.inputs(datapath)?;
+    let mut compared = Compared::default();
+    for format in WaveFormat::ALL {
+        let path = emitted.directory.join(format!("model.{}", format.extension()));
+        write(&path, format, datapath, &inputs)?;
+        let model = Waves::read(&path, "blysk.clk_i");
+        compared.values += dumped.compare(datapath, &model)?;
+        compared.edges += inputs.len() as u64;
+    }
+    if compared.values == 0 {
+        return failed("no value of the waves was compared");
+    }
+    Ok(compared)
+}
+
+/// The waves of a pipeline with these inputs, a cycle each.
+fn write(
+    path: &Path,
+    format: WaveFormat,
+    datapath: &Datapath,
+    inputs: &[Inputs],
+) -> Result<(), Failure> {
+    let written = || -> std::io::Result<()> {
+        let mut writer = WaveWriter::new(format, File::create(path)?, "blysk", datapath)?;
+        let mut pipeline = Pipeline::new(datapath);
+        for (index, inputs) in (0..).zip(inputs) {
+            let outputs = pipeline.combinational(inputs);
+            let ranks = pipeline.ranks();
+            writer.cycle(&Cycle { index, inputs, outputs: &outputs, ranks })?;
+            pipeline.clock();
+        }
+        writer.finish(inputs.len() as u64)
+    };
+    written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+}
+
+/// A simulator's dump, and the scope of the module under test in it.
+struct Dump {
+    waves: Waves,
+    scope: String,
+}
+
+impl Dump {
+    fn read(path: &Path) -> Result<Self, Failure> {
+        let text = std::fs::read_to_string(path).map_err(|error| Failure(error.to_string()))?;
+        // Newer simulators put a scope of their own around the testbench.
+        let around = if text.contains(" TOP ") { "TOP." } else { "" };
+        let scope = format!("{around}blysk_tb.dut.");
+        Ok(Self { waves: Waves::read(path, &format!("{scope}clk_i")), scope })
+    }
+
+    fn word(&self, name: &str, edge: usize) -> Result<Option<u64>, Failure> {
+        match self.waves.signals.get(&format!("{}{name}", self.scope)) {
+            Some(signal) => Ok(signal.word(edge)),
+            None => failed(format!("the dump has no {}{name}", self.scope)),
+        }
+    }
+
+    fn inputs(&self, datapath: &Datapath) -> Result<Vec<Inputs>, Failure> {
+        let x_format = datapath.formats().input;
+        let known = |name: &str, edge| {
+            self.word(name, edge)?.ok_or_else(|| Failure(format!("{name} is unknown")))
+        };
+        (0..self.waves.edges.len())
+            .map(|edge| {
+                Ok(Inputs {
+                    reset: known("rst_i", edge)? != 0,
+                    in_valid: known("in_valid_i", edge)? != 0,
+                    address: known("address_i", edge)? as u32,
+                    x: x_format.from_word(known("x_i", edge)?),
+                    out_ready: known("out_ready_i", edge)? != 0,
+                })
+            })
+            .collect()
+    }
+
+    /// Every port and register at every edge after the first, which is the first of the reset.
+    fn compare(&self, datapath: &Datapath, model: &Waves) -> Result<u64, Failure> {
+        if picoseconds(model) != picoseconds(&self.waves) {
+            return failed("the edges of the two dumps are at different times");
+        }
+        let mut names: Vec<(String, String)> =
+            ["in_ready_o", "out_valid_o", "intensity_o", "status_o"]
+                .map(|port| (port.to_owned(), port.to_owned()))
+                .to_vec();
+        names.extend(
+            probes(datapath).into_iter().map(|probe| (format!("{}_q", probe.name), probe.path)),
+        );
+        let mut compared = 0;
+        for (name, path) in names {
+            let ours = model.get(&format!("blysk.{name}"));
+            for edge in 1..model.edges.len() {
+                // Never loaded: the model promises nothing.
+                let Some(wanted) = ours.word(edge) else { continue };
+                if self.word(&path, edge)? != Some(wanted) {
+                    let time = model.edges[edge];
+                    return failed(format!("{path} differs from {name} before {time} ns"));
+                }
+                compared += 1;
+            }
+        }
+        compared += self.compare_valid(datapath, model)?;
+        Ok(compared)
+    }
+
+    fn compare_valid(&self, datapath: &Datapath, model: &Waves) -> Result<u64, Failure> {
+        let mut compared = 0;
+        for rank in 0..datapath.rank_count() {
+            let ours = model.get(&format!("blysk.{}.valid_q", datapath.rank_name(rank)));
+            for edge in 1..model.edges.len() {
+                let flags = self.word("handshake.valid_q", edge)?;
+                let flag = flags.map(|flags| flags >> rank & 1);
+                if flag != ours.word(edge) {
+                    return failed(format!("the valid flag of rank {rank} differs at edge {edge}"));
+                }
+                compared += 1;
+            }
+        }
+        Ok(compared)
+    }
+}
+
+/// The times of the edges, whatever the unit of the file.
+fn picoseconds(waves: &Waves) -> Vec<u64> {
+    let scale = 10_u64.pow(u32::try_from(waves.timescale + 12).unwrap_or(0));
+    waves.edges.iter().map(|edge| edge * scale).collect()
+}

@@ -1,0 +1,74 @@
+//! Directories of emitted RTL.
+
+use std::path::{Path, PathBuf};
+
+use hw_model::design::Design;
+use hw_model::rtl::TOP;
+use vectors::{Bundle, OutputSet, Strategy, rtl};
+
+use super::simulators::repository;
+use super::{Failure, failed};
+
+/// What is emitted.
+#[derive(Debug)]
+pub struct Emitted<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// Its directory.
+    pub directory: PathBuf,
+    /// Vectors in it.
+    pub vectors: u64,
+}
+
+/// A fresh directory `target/rtl/<name>` with the RTL of a design and its vectors.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn emit<'a>(
+    design: &'a Design,
+    name: &str,
+    strategy: Strategy,
+    count: u64,
+) -> Result<Emitted<'a>, Failure> {
+    let directory = repository().join("target/rtl").join(name);
+    if directory.exists() {
+        std::fs::remove_dir_all(&directory)
+            .map_err(|error| Failure(format!("cannot empty {}: {error}", directory.display())))?;
+    }
+    let command = format!("make rtl, {name}");
+    let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {
+        let mut set = OutputSet::create(&directory)?;
+        rtl::stage(&bundle, TOP, &command, &mut set)?;
+        set.commit()?;
+        Ok(bundle.vector_count())
+    });
+    match written {
+        Ok(vectors) => Ok(Emitted { design, directory, vectors }),
+        Err(error) => failed(error.to_string()),
+    }
+}
+
+/// A copy of a directory of RTL, without what was built there.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn copy(from: &Path, name: &str) -> Result<PathBuf, Failure> {
+    let to = repository().join("target/rtl").join(name);
+    let copied = || -> std::io::Result<()> {
+        if to.exists() {
+            std::fs::remove_dir_all(&to)?;
+        }
+        std::fs::create_dir_all(&to)?;
+        for entry in std::fs::read_dir(from)? {
+            let entry = entry?;
+            if entry.file_type()?.is_file() {
+                std::fs::copy(entry.path(), to.join(entry.file_name()))?;
+            }
+        }
+        Ok(())
+    };
+    match copied() {
+        Ok(()) => Ok(to),
+        Err(error) => failed(format!("cannot copy {}: {error}", from.display())),
+    }
+}

@@ -1,0 +1,321 @@
+//! What faulty hardware answers: the data path, with what one rank takes in exchanged.
+
+use hw_model::datapath::front_end::{FrontEnd, Region};
+use hw_model::datapath::tail::Division;
+use hw_model::datapath::{Datapath, Signals, Status};
+use hw_model::format::QFormat;
+use hw_model::rom::FieldName;
+use hw_model::rounding::Rounding;
+
+use super::fault::{DataRegister, Defect, Fault, Logic, RoundingLine};
+use crate::case::Case;
+use crate::reference::Expected;
+
+/// A data path, and what its registers hold of a value that does not fit.
+#[derive(Debug)]
+pub struct Model<'a> {
+    datapath: &'a Datapath,
+    /// The same in the wide lane, where values that do not fit have room until they wrap.
+    wide: Datapath,
+    /// The computed data registers of each rank.
+    registers: Vec<Vec<(DataRegister, QFormat)>>,
+}
+
+/// Hardware with one fault.
+#[derive(Debug)]
+pub struct Faulty<'a> {
+    model: &'a Model<'a>,
+    fault: Fault,
+    rank: usize,
+    /// The data path with a part exchanged, for faults of a line.
+    altered: Option<Datapath>,
+}
+
+impl<'a> Model<'a> {
+    /// The model of a data path.
+    #[must_use]
+    pub fn new(datapath: &'a Datapath) -> Self {
+        let of_rank = |rank| {
+            let computed = datapath.registers(rank).into_iter().filter(|held| held.computed);
+            let known = computed.filter_map(|held| {
+                let register = DataRegister::ALL.into_iter().find(|r| r.name() == held.name)?;
+                Some((register, held.format))
+            });
+            known.collect()
+        };
+        Self {
+            datapath,
+            wide: datapath.clone().in_wide_lane(),
+            registers: (0..datapath.rank_count()).map(of_rank).collect(),
+        }
+    }
+
+    /// The hardware with this fault.
+    #[must_use]
+    pub fn faulty(&'a self, fault: Fault) -> Faulty<'a> {
+        let rank = self.rank_of(fault);
+        Faulty { model: self, fault, rank, altered: self.altered(fault) }
+    }
+
+    /// The rank that takes in something else.
+    fn rank_of(&self, fault: Fault) -> usize {
+        let last = self.datapath.rank_count() - 1;
+        match fault {
+            Fault::Field(_) | Fault::Swap(_) => 0,
+            Fault::Register(rank, ..) => rank,
+            Fault::Rounding(line, _) => match line {
+                RoundingLine::Variable => 1,
+                RoundingLine::Stage(index) => 2 + index,
+                RoundingLine::Divisor => 2,
+                RoundingLine::Quotient => last,
+            },
+            Fault::Logic(logic) => match logic {
+                Logic::NoClampBelow
+                | Logic::NoClampAbove
+                | Logic::NoQuotientClamp
+                | Logic::NoFlag(_) => last,
+                // The divider's first rank is 2, the first quotient bits come in the next.
+                Logic::DigitMissing => 2 + self.digit_stages() as usize,
+                _ => 1,
+            },
+        }
+    }
+
+    fn digit_stages(&self) -> u32 {
+        self.datapath.divider().map_or(0, |divider| divider.digit_stages())
+    }
+
+    fn altered(&self, fault: Fault) -> Option<Datapath> {
+        match fault {
+            // A rounding carry at most beyond the right value: the lane has room for that.
+            Fault::Rounding(line, mode) => rounded(self.datapath.clone(), line, mode),
+            Fault::Logic(Logic::NoInputClamp) => {
+                let front_end = *self.datapath.front_end();
+                let greatest = self.datapath.formats().input.max_bits();
+                Some(self.wide.clone().with_front_end(FrontEnd { greatest, ..front_end }))
+            }
+            _ => None,
+        }
+    }
+
+    /// What fits the registers of a rank.
+    fn trim(&self, rank: usize, signals: &mut Signals) {
+        for &(register, format) in &self.registers[rank] {
+            let bits = register.of(signals);
+            *bits = format.from_word(*bits as u64);
+        }
+    }
+}
+
+fn rounded(datapath: Datapath, line: RoundingLine, mode: Rounding) -> Option<Datapath> {
+    let (front_end, divider) = (*datapath.front_end(), datapath.divider().copied());
+    let stages = datapath.stages().copied();
+    match line {
+        RoundingLine::Variable => Some(datapath.with_front_end(front_end.rounded_by(mode))),
+        RoundingLine::Stage(index) => {
+            let mut stages = stages?;
+            stages[index] = stages[index].rounded_by(mode);
+            Some(datapath.with_stages(stages))
+        }
+        RoundingLine::Divisor => {
+            let mut divider = divider?;
+            divider.divisor = divider.divisor.rounded_by(mode);
+            Some(datapath.with_divider(divider))
+        }
+        RoundingLine::Quotient => {
+            let mut divider = divider?;
+            divider.rounding = mode;
+            Some(datapath.with_divider(divider))
+        }
+    }
+}
+
+impl Faulty<'_> {
+    /// The fault.
+    #[must_use]
+    pub const fn fault(&self) -> Fault {
+        self.fault
+    }
+
+    /// The rank where it acts: what stands before it is right.
+    #[must_use]
+    pub const fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// The right hardware.
+    #[must_use]
+    pub const fn datapath(&self) -> &Datapath {
+        self.model.datapath
+    }
+
+    /// The data path with a line exchanged, where the fault is one of a line.
+    #[must_use]
+    pub const fn altered(&self) -> Option<&Datapath> {
+        self.altered.as_ref()
+    }
+
+    /// The format of a register of the faulty rank.
+    #[must_use]
+    pub fn format(&self, register: DataRegister) -> Option<QFormat> {
+        let registers = &self.model.registers[self.rank];
+        registers.iter().find(|(known, _)| *known == register).map(|&(_, format)| format)
+    }
+
+    /// What the ports show.
+    #[must_use]
+    pub fn answer(&self, case: Case) -> Expected {
+        let passage = self.model.datapath.passage(case.address, case.x);
+        expected(&self.last(&passage))
+    }
+
+    /// True when the ports show something else than the golden model, which went through `passage`:
+    /// what each of its ranks holds, first to last.
+    #[must_use]
+    pub fn is_killed(&self, passage: &[Signals]) -> bool {
+        // Most inputs do not meet the fault, and nothing needs to be computed behind it.
+        let begun = self.takes_in(passage);
+        passage.get(self.rank) != Some(&begun)
+            && passage.last().map(expected) != Some(expected(&self.rest(begun)))
+    }
+
+    fn last(&self, passage: &[Signals]) -> Signals {
+        self.rest(self.takes_in(passage))
+    }
+
+    fn rest(&self, begun: Signals) -> Signals {
+        (self.rank + 1..self.model.datapath.rank_count()).fold(begun, |held, rank| {
+            let mut next = self.model.wide.advance(rank, &held);
+            self.model.trim(rank, &mut next);
+            next
+        })
+    }
+
+    /// What the faulty rank holds.
+    fn takes_in(&self, passage: &[Signals]) -> Signals {
+        let mut held = passage[self.rank];
+        match self.fault {
+            Fault::Field(fault) => {
+                if held.address == fault.address {
+                    held.row.set(fault.field, held.row.get(fault.field) + fault.step);
+                }
+                return held;
+            }
+            Fault::Swap(address) => {
+                if held.address == address || held.address == address + 1 {
+                    held.row = self.model.datapath.row(2 * address + 1 - held.address);
+                }
+                return held;
+            }
+            Fault::Register(_, register, defect) => self.damage(register, defect, &mut held),
+            Fault::Rounding(..) => {
+                held = self.path().advance(self.rank, &passage[self.rank - 1]);
+            }
+            Fault::Logic(logic) => self.choose(logic, &passage[self.rank - 1], &mut held),
+        }
+        self.model.trim(self.rank, &mut held);
+        held
+    }
+
+    fn path(&self) -> &Datapath {
+        self.altered.as_ref().unwrap_or(&self.model.wide)
+    }
+
+    fn damage(&self, register: DataRegister, defect: Defect, held: &mut Signals) {
+        let Some(format) = self.format(register) else { return };
+        let bits = register.of(held);
+        *bits = match defect {
+            Defect::LowBitStuck => *bits & !1,
+            Defect::Short => narrower(format).map_or(0, |format| format.from_word(*bits as u64)),
+        };
+    }
+
+    fn choose(&self, logic: Logic, before: &Signals, held: &mut Signals) {
+        let path = self.path();
+        match logic {
+            Logic::CutExclusive => self.with_field(FieldName::Cut, 1, before, held),
+            Logic::ShiftMore => self.with_field(FieldName::Shift, 1, before, held),
+            Logic::ShiftLess => {
+                let step = -before.row.get(FieldName::Shift).min(1);
+                self.with_field(FieldName::Shift, step, before, held);
+            }
+            Logic::NoInputClamp => *held = path.advance(self.rank, before),
+            Logic::NegativeAsUnsigned => {
+                let x = path.formats().input.to_word(before.x) as i64;
+                *held = path.advance(self.rank, &Signals { x, ..*before });
+            }
+            Logic::RegionsSwapped => self.swap_regions(held),
+            Logic::NoClampBelow if held.region == Region::Polynomial => {
+                held.intensity = before.t3.min(held.intensity);
+            }
+            Logic::NoClampAbove if held.region == Region::Polynomial => {
+                held.intensity = before.t3.max(held.intensity);
+            }
+            Logic::NoQuotientClamp if held.region == Region::Tail => {
+                if let Some(divider) = path.divider() {
+                    held.intensity = divider.finish(wide(before), i64::MAX.into()) as i64;
+                }
+            }
+            Logic::NoFlag(flag) => held.status = held.status.without(flag),
+            Logic::DigitMissing => self.omit_digit(before, held),
+            Logic::NoClampBelow | Logic::NoClampAbove | Logic::NoQuotientClamp => {}
+        }
+    }
+
+    /// The rank, with a field of the row as the logic takes it; the row itself stays.
+    fn with_field(&self, field: FieldName, step: i64, before: &Signals, held: &mut Signals) {
+        let mut row = before.row;
+        row.set(field, row.get(field) + step);
+        *held = self.path().advance(self.rank, &Signals { row, ..*before });
+        held.row = before.row;
+    }
+
+    fn swap_regions(&self, held: &mut Signals) {
+        let front_end = self.model.datapath.front_end();
+        // Neither is a matter of the cut.
+        if [Status::NO_WORD, Status::FACING_AWAY].iter().any(|flag| held.status.contains(*flag)) {
+            return;
+        }
+        let other = if front_end.tail { Region::Tail } else { Region::Zero };
+        held.region = match held.region {
+            Region::Polynomial => other,
+            region if region == other => Region::Polynomial,
+            region => region,
+        };
+        let (x, shift) = (i128::from(held.x), held.row.shift());
+        held.v = front_end.variable(x, held.region, shift) as i64;
+        held.tail_x = front_end.tail_x(held.x, held.region);
+    }
+
+    /// The last rank of quotient bits, with one less.
+    fn omit_digit(&self, before: &Signals, held: &mut Signals) {
+        let Some(divider) = self.model.datapath.divider() else { return };
+        let done = (divider.digit_stages() - 1) * divider.digits_per_stage;
+        let count = divider.digit_count - done - 1;
+        let division = (0..count).fold(wide(before), |division, _| divider.digit(division));
+        held.division = Division {
+            divisor: division.divisor as i64,
+            remainder: division.remainder as i64,
+            digits: division.digits as i64,
+        };
+    }
+}
+
+fn wide(signals: &Signals) -> Division<i128> {
+    let Division { divisor, remainder, digits } = signals.division;
+    Division { divisor: divisor.into(), remainder: remainder.into(), digits: digits.into() }
+}
+
+/// A format of one bit less at the top; none where it has only one.
+pub(super) fn narrower(format: QFormat) -> Option<QFormat> {
+    let (integer, fraction) = (format.integer_bits() - 1, format.fraction_bits());
+    let narrower = match format.is_signed() {
+        true => QFormat::signed(integer, fraction),
+        false => QFormat::unsigned(integer, fraction),
+    };
+    narrower.ok()
+}
+
+fn expected(last: &Signals) -> Expected {
+    Expected { intensity: last.intensity, status: last.status.bits() }
+}

@@ -1,0 +1,108 @@
+//! Which faults a data path can have.
+
+use hw_model::datapath::front_end::Variable;
+use hw_model::datapath::{Datapath, Status};
+use hw_model::rom::{FieldName, Place};
+use hw_model::rounding::Rounding;
+
+use super::fault::{DataRegister, Defect, Fault, FieldFault, Logic, RoundingLine};
+
+/// The faults of one row: each stored field one unit up and one down, where its format holds that.
+/// At most 16.
+#[must_use]
+pub fn field_faults(datapath: &Datapath, address: u32) -> Vec<FieldFault> {
+    let Some(row) = datapath.rom().row(address) else {
+        return Vec::new();
+    };
+    let fields = datapath.rom().layout().fields().iter();
+    let stored = fields.filter(|field| matches!(field.place, Place::Stored { .. }));
+    let steps = stored.flat_map(|field| [1, -1].map(|step| (field, step)));
+    steps
+        .filter(|(field, step)| field.format.holds((row.get(field.name) + step).into()))
+        .map(|(field, step)| FieldFault { address, field: field.name, step })
+        .collect()
+}
+
+/// Every fault that is not one of a single row: swapped rows, rounding, registers, logic.
+#[must_use]
+pub fn pipeline_faults(datapath: &Datapath) -> Vec<Fault> {
+    let depth = datapath.rom().depth() as u32;
+    let mut faults: Vec<Fault> = logic(datapath).into_iter().map(Fault::Logic).collect();
+    for line in rounding_lines(datapath) {
+        let mode = line_mode(datapath, line);
+        let others = Rounding::ALL.into_iter().filter(|&other| Some(other) != mode);
+        faults.extend(others.map(|other| Fault::Rounding(line, other)));
+    }
+    faults.extend(registers(datapath));
+    faults.extend((0..depth.saturating_sub(1)).map(Fault::Swap));
+    faults
+}
+
+/// The lines that drop bits.
+fn rounding_lines(datapath: &Datapath) -> Vec<RoundingLine> {
+    let mut lines = Vec::new();
+    if matches!(datapath.front_end().variable, Some(Variable::U { drop: 1.., .. })) {
+        lines.push(RoundingLine::Variable);
+    }
+    for (index, stage) in datapath.stages().into_iter().flatten().enumerate() {
+        if stage.dropped_bits() > 0 {
+            lines.push(RoundingLine::Stage(index));
+        }
+    }
+    if let Some(divider) = datapath.divider() {
+        if divider.divisor.dropped_bits() > 0 {
+            lines.push(RoundingLine::Divisor);
+        }
+        lines.push(RoundingLine::Quotient);
+    }
+    lines
+}
+
+fn line_mode(datapath: &Datapath, line: RoundingLine) -> Option<Rounding> {
+    match line {
+        RoundingLine::Variable => datapath.front_end().rounding(),
+        RoundingLine::Stage(index) => datapath.stages().map(|stages| stages[index].rounding()),
+        RoundingLine::Divisor => datapath.divider().map(|divider| divider.divisor.rounding()),
+        RoundingLine::Quotient => datapath.divider().map(|divider| divider.rounding),
+    }
+}
+
+/// Both defects of every computed data register; a register of one bit has no bit to spare.
+fn registers(datapath: &Datapath) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    for rank in 1..datapath.rank_count() {
+        for held in datapath.registers(rank).iter().filter(|held| held.computed) {
+            let known = DataRegister::ALL.into_iter().find(|known| known.name() == held.name);
+            let Some(register) = known else { continue };
+            if held.format.width() > 1 {
+                faults.push(Fault::Register(rank, register, Defect::Short));
+            }
+            faults.push(Fault::Register(rank, register, Defect::LowBitStuck));
+        }
+    }
+    faults
+}
+
+/// The mistakes in choices that this data path makes.
+fn logic(datapath: &Datapath) -> Vec<Logic> {
+    let input = datapath.formats().input;
+    let mut list = Vec::new();
+    if datapath.stages().is_some() {
+        list.extend([Logic::CutExclusive, Logic::RegionsSwapped]);
+        list.extend([Logic::NoClampBelow, Logic::NoClampAbove, Logic::NoFlag(Status::CLAMPED)]);
+    }
+    if datapath.rom().layout().field(FieldName::Shift).is_some() {
+        list.extend([Logic::ShiftMore, Logic::ShiftLess]);
+    }
+    if datapath.divider().is_some() {
+        list.extend([Logic::NoQuotientClamp, Logic::DigitMissing]);
+    }
+    if input.max_bits() > datapath.front_end().greatest {
+        list.extend([Logic::NoInputClamp, Logic::NoFlag(Status::ABOVE_ONE)]);
+    }
+    if input.is_signed() {
+        list.extend([Logic::NegativeAsUnsigned, Logic::NoFlag(Status::FACING_AWAY)]);
+    }
+    list.push(Logic::NoFlag(Status::NO_WORD));
+    list
+}

@@ -1,0 +1,91 @@
+//! Which x kill which fault of a row, many x at a time.
+
+use hw_model::datapath::{Block, Datapath};
+use hw_model::rom::{FieldName, Row};
+
+use super::fault::FieldFault;
+use super::list::field_faults;
+use super::screen::compare;
+
+/// A set of a row's faults: bit k is the k-th of [`RowFaults::faults`].
+pub type Mask = u16;
+
+/// The faults of one row, and what its hardware answers under each of them.
+#[derive(Debug)]
+pub struct RowFaults<'a> {
+    datapath: &'a Datapath,
+    golden: Row,
+    faults: Vec<FieldFault>,
+    rows: Vec<Row>,
+    right: Block,
+    wrong: Block,
+}
+
+impl<'a> RowFaults<'a> {
+    /// The faults of the row at an address.
+    #[must_use]
+    pub fn new(datapath: &'a Datapath, address: u32) -> Self {
+        let golden = datapath.row(address);
+        let faults = field_faults(datapath, address);
+        let faulty = |fault: &FieldFault| {
+            let mut row = golden;
+            row.set(fault.field, row.get(fault.field) + fault.step);
+            row
+        };
+        let rows = faults.iter().map(faulty).collect();
+        Self { datapath, golden, faults, rows, right: Block::default(), wrong: Block::default() }
+    }
+
+    /// The faults.
+    #[must_use]
+    pub fn faults(&self) -> &[FieldFault] {
+        &self.faults
+    }
+
+    /// The set of all of them.
+    #[must_use]
+    pub fn all(&self) -> Mask {
+        // At most 16 faults: 8 fields, up and down.
+        ((1_u32 << self.faults.len()) - 1) as Mask
+    }
+
+    /// The set of those of one field.
+    #[must_use]
+    pub fn of_field(&self, field: FieldName) -> Mask {
+        let bits = self.faults.iter().enumerate().filter(|(_, fault)| fault.field == field);
+        bits.fold(0, |set, (bit, _)| set | 1 << bit)
+    }
+
+    /// For each x, the faults of `wanted` that it kills. Chunks of neighbouring x are fast: a part
+    /// of the pipeline that none of them reaches is not evaluated.
+    pub fn killed(&mut self, xs: &[i64], wanted: Mask, masks: &mut Vec<Mask>) {
+        masks.clear();
+        masks.resize(xs.len(), 0);
+        let (Some(&low), Some(&high)) = (xs.iter().min(), xs.iter().max()) else { return };
+        let met: Vec<usize> = (0..self.faults.len())
+            .filter(|&fault| wanted >> fault & 1 == 1 && self.is_met(self.faults[fault], low, high))
+            .collect();
+        if met.is_empty() {
+            return;
+        }
+        self.datapath.evaluate_row(&self.golden, None, xs, &mut self.right);
+        for fault in met {
+            self.datapath.evaluate_row(&self.rows[fault], None, xs, &mut self.wrong);
+            let one = self.datapath.output_one();
+            compare(&self.right, &self.wrong, one, |index| masks[index] |= 1 << fault);
+        }
+    }
+
+    /// True when some x of `low..=high` may reach the part of the pipeline that the field belongs to.
+    fn is_met(&self, fault: FieldFault, low: i64, high: i64) -> bool {
+        let cut = match self.datapath.stages() {
+            Some(_) => self.golden.get(FieldName::Cut),
+            None => i64::MAX,
+        };
+        match fault.field {
+            FieldName::Cut => low <= cut && cut - 1 <= high,
+            FieldName::TailA | FieldName::TailB => low < cut,
+            _ => high >= cut,
+        }
+    }
+}
