@@ -60,25 +60,27 @@ class Property:
 ROUNDING_BUG = Bug("rounding left out", "blysk_round_shift.sv", "assign added = HALF;", "assign added = '0;")
 
 
+ROUNDINGS = {"floor": 0, "nearest even": 2, "toward zero": 3}  # the presets have 1, nearest up
 WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_at_3)", ".variable_i(v_at_2)")
 
 
-def stage(number, multiplicand, variable, addend, needs, subtract):
-    """The proof of a multiply-add stage, with the widths of the package."""
+def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
+    """The proof of a multiply-add stage, with the widths of the package; `rounding` instead of its own."""
     t = f"T{number}" if number else "DIVISOR"
     parameters = {
         "MULTIPLICAND_WIDTH": f"{multiplicand}_WIDTH", "MULTIPLICAND_SIGNED": f"{multiplicand}_SIGNED",
         "VARIABLE_WIDTH": f"{variable}_WIDTH",
         "ADDEND_WIDTH": f"{addend}_WIDTH", "ADDEND_SIGNED": f"{addend}_SIGNED",
         "T_WIDTH": f"{t}_WIDTH", "T_SIGNED": f"{t}_SIGNED" if number else 0,
-        "SUBTRACT": subtract, "ROUNDING": "ROUNDING",
+        "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, "ROUNDING"),
     }
     for place in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
         parameters[place] = f"{t}_{place}"
+    name = f"stage {number}" if number else "divisor"
     return Property(
-        name=f"stage {number}" if number else "divisor", top="stage_proof",
+        name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
         files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
-        needs=needs, parameters=parameters, bugs=[ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
+        needs=needs, parameters=parameters, bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
     )
 
 
@@ -110,6 +112,7 @@ ALL = [
     stage(2, "T1", "V", "C1", "HAS_POLYNOMIAL", "CENTRED"),
     stage(3, "T2", "V", "C0", "HAS_POLYNOMIAL", "CENTRED"),
     stage(0, "TAIL_B", "X", "TAIL_A", "HAS_TAIL", 1),
+    *(stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED", rounding) for rounding in ROUNDINGS),
     Property(
         "pipeline", "blysk", RTL, ["rom.sv", "fields.sv", "trail.sv", "stand_in.sv", "pipeline.svh"],
         inside="blysk", needs="HAS_POLYNOMIAL", replaces=["blysk_stage"], carries_word=True, bugs=[WRONG_V],
@@ -165,7 +168,7 @@ class Job:
         # A proof needs no more than its induction; a bug shows once a result has come out, and stalled.
         self.depth = package["RANKS"] + 4 if bug and prop.inside else 3
         name = f"{prop.name} {bug.name}" if bug else prop.name
-        self.place = ROOT / "target/formal" / preset / name.replace(" ", "_")
+        self.place = ROOT / "target/formal" / preset / re.sub(r"\W+", "_", name)
 
     def sources(self):
         """Copies the sources; gives their names in order."""
