@@ -5,6 +5,7 @@
 use std::path::Path;
 use std::process::Command;
 
+use hw_model::format::QFormat;
 use rayon::prelude::*;
 
 use super::{Bench, Outcome};
@@ -27,7 +28,7 @@ const RIGHT: &str = "right.il";
 pub fn mutate(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, Failure> {
     let sources = hw_model::rtl::SOURCES.map(|(name, _)| name).join(" ");
     let script = format!(
-        "read_verilog -sv blysk_pkg.sv {sources}; prep -flatten -top blysk; wreduce; opt -full; clean; \
+        "read_verilog -sv blysk_pkg.sv {sources}; prep -nordff -flatten -top blysk; wreduce; opt -full; clean; \
          write_rtlil {RIGHT}; mutate -list {count} -seed {seed} -ctrl mutant 16 1 -o {LIST}; \
          script {LIST}; write_verilog -noattr {NETLIST}"
     );
@@ -89,34 +90,51 @@ fn describe(number: usize, mutation: &str) -> String {
     format!("netlist:{number} {}", parts.join(" "))
 }
 
-/// Whether a mutation changes anything: by SAT, over all states and inputs, with what is common to
-/// both netlists shared. `None` when the solver does not finish in `seconds`.
+/// Whether a mutation changes nothing, by SAT: from any state and inputs the mutated netlist takes
+/// the same next state into every register and shows the same outputs. (That is more than is needed: one
+/// that only differs in states that never occur is not found to be equivalent.) `states` are values of
+/// registers of which one always holds; the proof is made for each of them.
 ///
 /// # Errors
 /// When Yosys cannot be run.
 pub fn is_equivalent(
     directory: &Path,
     mutation: &str,
+    states: &[String],
     seconds: u32,
-) -> Result<Option<bool>, Failure> {
+) -> Result<bool, Failure> {
     let plain = without_control(mutation);
+    let proofs: Vec<String> = if states.is_empty() {
+        vec![sat("", seconds)]
+    } else {
+        states.iter().map(|state| sat(state, seconds)).collect()
+    };
+    // The flip-flops become inputs and outputs, bit by bit; what both netlists share is merged.
     let script = format!(
-        "read_rtlil {RIGHT}; rename blysk right; read_rtlil {RIGHT}; rename blysk blysk_; \
-         rename blysk_ blysk; {plain}; rename blysk wrong; \
-         miter -equiv -flatten -make_outputs -ignore_gold_x right wrong miter; \
-         hierarchy -top miter; memory_map -rom-only; opt -full -share_all; opt -full -share_all; \
-         sat -timeout {seconds} -tempinduct -set-def-inputs -prove trigger 0 -verify miter"
+        "read_rtlil {RIGHT}; rename blysk right; read_rtlil {RIGHT}; {plain}; rename blysk wrong; \
+         dffunmap; simplemap t:$dff; splitnets; opt_clean; expose -evert-dff right wrong; opt_clean; \
+         miter -equiv -flatten -make_outputs right wrong miter; hierarchy -top miter; \
+         memory_map -rom-only; opt -full -nodffe -nosdff; opt_merge -share_all; \
+         opt -full -nodffe -nosdff; {}",
+        proofs.join("; ")
     );
     let output = Command::new("yosys").args(["-q", "-p", &script]).current_dir(directory).output();
     let output = output.map_err(|error| Failure(format!("cannot run yosys: {error}")))?;
-    let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
-    Ok(if output.status.success() {
-        Some(true)
-    } else if text.contains("proof did fail") {
-        Some(false)
-    } else {
-        None
-    })
+    Ok(output.status.success())
+}
+
+fn sat(state: &str, seconds: u32) -> String {
+    format!("sat -timeout {seconds} {state} -prove trigger 0 -verify miter")
+}
+
+/// The values of t3 where no input makes the clamp act: below 1, and 1.
+#[must_use]
+pub fn unclamped(t3: QFormat, one: i64) -> Vec<String> {
+    let set = |place: u32, bit: i64| format!("-set \\in_polynomial.stage3.t_q[{place}].q {bit}");
+    let above = (0..t3.width()).filter(|&place| 1 << place >= one + one % 2);
+    let below_one: Vec<String> = above.map(|place| set(place, 0)).collect();
+    let is_one: Vec<String> = (0..t3.width()).map(|place| set(place, one >> place & 1)).collect();
+    vec![below_one.join(" "), is_one.join(" ")]
 }
 
 fn without_control(mutation: &str) -> String {
