@@ -16,7 +16,7 @@ import shutil
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -39,6 +39,7 @@ class Bug:
     new: str = ""
     parameter: str = ""
     less: int = 0
+    needs: str = ""  # the constant of the package that says whether it is one
 
 
 @dataclass
@@ -72,7 +73,7 @@ def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
         "VARIABLE_WIDTH": f"{variable}_WIDTH",
         "ADDEND_WIDTH": f"{addend}_WIDTH", "ADDEND_SIGNED": f"{addend}_SIGNED",
         "T_WIDTH": f"{t}_WIDTH", "T_SIGNED": f"{t}_SIGNED" if number else 0,
-        "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, "ROUNDING"),
+        "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, f"{t}_ROUNDING"),
     }
     for place in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
         parameters[place] = f"{t}_{place}"
@@ -106,7 +107,14 @@ ALL = [
     Property(
         "front end", "front_end_proof", ["blysk_round_shift", "blysk_front_end"],
         ["fields.sv", "multiply_add.sv", "front_end.sv"],
-        bugs=[Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ")],
+        bugs=[
+            Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ",
+                needs="HAS_POLYNOMIAL"),
+            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
+                "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
+            # Any cut with the shift of each row: u is greater than its register then.
+            Bug("cut not of the row", "front_end.sv", ".cut_o(cut), ", ".cut_o(), ", needs="SHIFT_STORED"),
+        ],
     ),
     stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED"),
     stage(2, "T1", "V", "C1", "HAS_POLYNOMIAL", "CENTRED"),
@@ -134,7 +142,11 @@ ALL = [
     ),
     Property(
         "clamp", "clamp_proof", ["blysk_round_shift", "blysk_clamp"], ["multiply_add.sv", "clamp.sv"],
-        bugs=[Bug("greater than 1 passed on", "blysk_clamp.sv", "above ? blysk_pkg::OUTPUT_GREATEST :", "")],
+        bugs=[
+            Bug("greater than 1 passed on", "blysk_clamp.sv", "above ? blysk_pkg::OUTPUT_GREATEST :", "",
+                needs="HAS_POLYNOMIAL"),
+            replace(ROUNDING_BUG, needs="HAS_TAIL"),
+        ],
     ),
 ]
 
@@ -295,7 +307,7 @@ def main():
         for prop in ALL:
             if args.property and prop.name not in args.property or prop.needs and not package[prop.needs]:
                 continue
-            for bug in [None, *prop.bugs]:
+            for bug in [None, *(bug for bug in prop.bugs if not bug.needs or package[bug.needs])]:
                 start = time.monotonic()
                 words, as_it_should = verdict(Job(preset, rtl, prop, bug, args.limit).run(), bug, args.limit)
                 seconds = time.monotonic() - start

@@ -125,8 +125,8 @@ def versions(device):
         flag = "-V" if "yosys" in tool else "--version"
         done = subprocess.run([tool, flag], capture_output=True, text=True, check=True)
         said = (done.stdout + done.stderr).strip().splitlines()[-1]
-        number = re.search(r"Yosys (\S+)|Version ([^\s)]+)|nextpnr-(\S+?)\)", said)
-        text.append(f"{tool} {next(group for group in number.groups() if group) if number else said}")
+        number = re.search(r"(?:Yosys |Version (?:nextpnr-)?)([^\s)]+)", said)
+        text.append(f"{tool} {number[1] if number else said}")
     return ", ".join(text)
 
 

@@ -27,7 +27,7 @@ module clamp_proof (
   assign sticky = WIDE'(remainder_i != '0);
   multiply_add #(
     .MULTIPLICAND_WIDTH(blysk_pkg::DIGITS_WIDTH), .VARIABLE_WIDTH(2), .ADDEND_WIDTH(1), .SUBTRACT(0),
-    .DROP(2), .ROUNDING(blysk_pkg::ROUNDING), .WIDE(WIDE)
+    .DROP(2), .ROUNDING(blysk_pkg::QUOTIENT_ROUNDING), .WIDE(WIDE)
   ) line (
     .multiplicand_i(digits_i), .variable_i(2'd2), .addend_i(sticky[0]), .exact_o(), .rounded_o(quotient)
   );

@@ -53,7 +53,7 @@ module front_end_proof #(
 
   multiply_add #(
     .MULTIPLICAND_WIDTH(blysk_pkg::INPUT_WIDTH), .VARIABLE_WIDTH(SHIFTED), .SUBTRACT(0),
-    .PRODUCT_UP(blysk_pkg::U_UP), .DROP(blysk_pkg::U_DROP), .ROUNDING(blysk_pkg::ROUNDING), .WIDE(WIDE)
+    .PRODUCT_UP(blysk_pkg::U_UP), .DROP(blysk_pkg::U_DROP), .ROUNDING(blysk_pkg::U_ROUNDING), .WIDE(WIDE)
   ) line (
     .multiplicand_i(blysk_pkg::INPUT_WIDTH'(s)), .variable_i(SHIFTED'(1) << shift), .addend_i(1'b0),
     .exact_o(exact), .rounded_o(u)

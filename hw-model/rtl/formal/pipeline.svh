@@ -12,7 +12,7 @@
     .ADDEND_WIDTH(blysk_pkg::ADDEND``_WIDTH), .ADDEND_SIGNED(blysk_pkg::ADDEND``_SIGNED), \
     .SUBTRACT(blysk_pkg::CENTRED), .PRODUCT_UP(blysk_pkg::T``_PRODUCT_UP), \
     .ADDEND_UP(blysk_pkg::T``_ADDEND_UP), .RESULT_UP(blysk_pkg::T``_RESULT_UP), .DROP(blysk_pkg::T``_DROP), \
-    .ROUNDING(blysk_pkg::ROUNDING), .SUM_WIDTH(blysk_pkg::T``_SUM_WIDTH))
+    .ROUNDING(blysk_pkg::T``_ROUNDING), .SUM_WIDTH(blysk_pkg::T``_SUM_WIDTH))
 
   localparam int LAST   = blysk_pkg::RANKS - 2;
   localparam int REGION = blysk_pkg::REGION_WIDTH;
