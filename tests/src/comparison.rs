@@ -254,7 +254,12 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
             .min(greatest_u / f64::from(real.shift).exp2())
             .clamp(real.epicentre, 1.0),
     };
-    if config.cut == Cut::Minimum && cubic.centred.value_at_s(s) < config.output.ulp() / 2.0 {
+    // Half an output ulp, and where the arithmetic here cannot tell a value from it.
+    let nothing = config.output.ulp() * (0.5 + 1e-9);
+    let value = |s| cubic.centred.value_at_s(s);
+    // A Q as small as that ends the epicentre where there is nothing to show already.
+    let s = if value(real.epicentre) < nothing { real.epicentre } else { s };
+    if config.cut == Cut::Minimum && value(s) < nothing && s > real.epicentre {
         return cut_at_nothing(design, real, got, s);
     }
     // The least integer that is not below (1 − s)·2^fraction: minus the floor of minus it.

@@ -85,6 +85,9 @@ pub fn random(random: &mut Random) -> Config {
     config.output = output(random);
     config.error_budget_ulp = budget(random, config.rounding);
     if random.once_in(6) {
+        config.multiplier_operand_bits = Some(random.integer(8, 24) as u32);
+    }
+    if random.once_in(6) {
         state_widths(random, &mut config);
     }
     config

@@ -144,6 +144,16 @@ fn fields_that_cannot_be_used_are_named() {
         (json!({"quotient_bits_per_stage": 9}), vec!["`quotient_bits_per_stage`", "1 to 8"]),
         (json!({"quotient_bits_per_stage": -1}), vec!["-1", "u32"]),
         (json!({"quotient_bits_per_stage": 2.5}), vec!["2.5", "u32"]),
+        (json!({"multiplier_operand_bits": 7}), vec!["`multiplier_operand_bits`", "8 to 63"]),
+        (json!({"multiplier_operand_bits": 64}), vec!["`multiplier_operand_bits`", "8 to 63"]),
+        (
+            json!({"multiplier_operand_bits": 9, "output": "UQ1.15"}),
+            vec!["cannot be kept", "multiplier_operand_bits", "n = "],
+        ),
+        (
+            json!({"multiplier_operand_bits": 10, "widths": {"t1": "UQ3.9"}}),
+            vec!["t1", "UQ3.9", "12 bits", "multiplier_operand_bits = 10"],
+        ),
         (json!({"error_budget_ulp": 0.0}), vec!["`error_budget_ulp`", "above 0"]),
         (json!({"error_budget_ulp": -1.0}), vec!["`error_budget_ulp`", "above 0"]),
         (json!({"error_budget_ulp": 1e7}), vec!["`error_budget_ulp`", "1e6"]),
@@ -195,7 +205,7 @@ fn a_budget_that_cannot_be_kept_says_what_is_reached_where() {
         ),
         (
             json!({"widths": {"t2": "UQ1.7"}, "error_budget_ulp": 0.9}),
-            vec!["cannot be kept", "stated widths", "n = ", "state wider formats"],
+            vec!["cannot be kept", "stated widths", "n = ", "allow wider formats"],
         ),
         (
             json!({"form": "power", "exponents": "1e15"}),

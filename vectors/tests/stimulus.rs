@@ -96,7 +96,10 @@ fn targets_come_first_and_once() {
     for design in common::all_small() {
         let all = samples(&design, Strategy::Mixed, 200, 1);
         let targets = all.iter().filter(|sample| sample.kind == Kind::Target).count();
-        assert_eq!(samples(&design, Strategy::Mixed, targets as u64 - 1, 1), all[..targets - 1]);
+        let fewer = samples(&design, Strategy::Mixed, targets as u64 - 1, 1);
+        assert_eq!(fewer.len(), targets - 1);
+        // The last round is shared over the rows, so it need not be the one with more room.
+        assert!(fewer.iter().all(|sample| all[..targets].contains(sample)));
         let chosen = all.iter().filter(|s| !matches!(s.kind, Kind::Even | Kind::Random));
         let mut seen = HashSet::new();
         assert!(chosen.into_iter().all(|s| seen.insert((s.case.address, s.case.x))));

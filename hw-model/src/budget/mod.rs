@@ -110,7 +110,7 @@ pub enum BudgetError {
     },
     /// The error cannot be kept within the budget.
     #[error(
-        "the error budget of {budget} ulp cannot be kept: {what} reach {needed:.3} ulp at n = {exponent}; raise error_budget_ulp, round to nearest, or state wider formats"
+        "the error budget of {budget} ulp cannot be kept: {what} reach {needed:.3} ulp at n = {exponent}; raise error_budget_ulp, round to nearest, or allow wider formats"
     )]
     NotKept {
         /// The budget, in output ulp.

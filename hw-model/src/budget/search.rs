@@ -43,7 +43,11 @@ impl Search<'_> {
             let pinned = self.pinned[own..].iter().any(Option::is_some);
             return Err(BudgetError::NotKept {
                 budget: self.budget,
-                what: if pinned { "the stated widths" } else { "even generous widths" },
+                what: match self.operand_bits {
+                    Some(_) => "the widest operands within multiplier_operand_bits",
+                    None if pinned => "the stated widths",
+                    None => "even generous widths",
+                },
                 needed: worst,
                 exponent,
             });

@@ -112,7 +112,7 @@ pub fn is_equivalent(
     // The flip-flops become inputs and outputs, bit by bit; what both netlists share is merged.
     let script = format!(
         "read_rtlil {RIGHT}; rename blysk right; read_rtlil {RIGHT}; {plain}; rename blysk wrong; \
-         dffunmap; simplemap t:$dff; splitnets; opt_clean; expose -evert-dff right wrong; opt_clean; \
+         dffunmap; simplemap t:$dff; splitnets; opt_clean; expose -dff -evert-dff right wrong; opt_clean; \
          miter -equiv -flatten -make_outputs right wrong miter; hierarchy -top miter; \
          memory_map -rom-only; opt -full -nodffe -nosdff; opt_merge -share_all; \
          opt -full -nodffe -nosdff; {}",
@@ -130,7 +130,7 @@ fn sat(state: &str, seconds: u32) -> String {
 /// The values of t3 where no input makes the clamp act: below 1, and 1.
 #[must_use]
 pub fn unclamped(t3: QFormat, one: i64) -> Vec<String> {
-    let set = |place: u32, bit: i64| format!("-set \\in_polynomial.stage3.t_q[{place}].q {bit}");
+    let set = |place: u32, bit: i64| format!("-set \\in_clamp.t3_i[{place}].q {bit}");
     let above = (0..t3.width()).filter(|&place| 1 << place >= one + one % 2);
     let below_one: Vec<String> = above.map(|place| set(place, 0)).collect();
     let is_one: Vec<String> = (0..t3.width()).map(|place| set(place, one >> place & 1)).collect();
