@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs setup test rtl bench exhaustive mutants clean help
+.PHONY: all docs setup setup-all test rtl bench exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -11,6 +11,7 @@ RESULTS ?= results
 PRESETS ?=
 BLYSK = $(CARGO) run --release --locked --quiet --bin blysk --
 VENV = target/venv
+FORMAL = scripts/formal.py --blysk "$(BLYSK)"
 
 # Exit status 1 of `blysk report` says that a bound does not hold for some preset. Here that is a
 # finding, which the table shows; anything greater is an error.
@@ -39,12 +40,16 @@ docs: ## write the hardware reference, docs/hardware/, again
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup
 
+setup-all: ## and what proofs and synthesis need
+	@scripts/setup --all
+
 test: setup ## everything that is checked: format, spelling, lints, documentation, tests, RTL
 	$(CARGO) fmt --all --check
 	$(VENV)/bin/typos
 	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
 	$(CARGO) test --workspace --locked --profile release-checked
+	@scripts/synth.py --check --blysk "$(CARGO) run --locked --quiet --profile release-checked --bin blysk --"
 	@$(MAKE) --no-print-directory rtl
 
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
@@ -60,6 +65,15 @@ exhaustive: setup ## every representable x: the error of every preset, and the R
 	echo "Results are in $(RESULTS)/exhaustive/."
 	$(CARGO) run --locked --quiet --release --package blysk-tests --bin exhaustive -- $(PRESETS)
 
+formal: setup-all ## prove the RTL: handshake, arithmetic, pipeline; some minutes
+	@$(FORMAL) --out $(RESULTS)/formal
+
+formal-quick: setup-all ## the handshake alone, and that the proof finds bugs planted in it
+	@$(FORMAL) --preset compact --property handshake
+
+synth: setup-all ## synthesise every preset for two FPGAs, and write the table of docs/SYNTHESIS.md
+	@scripts/synth.py --blysk "$(BLYSK)" --out $(RESULTS)/synth
+
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
 	$(CARGO) run --locked --quiet --release --package blysk-tests --bin mutants -- $(PRESETS)
 
@@ -68,6 +82,6 @@ clean: ## remove everything that was built or written
 	rm -rf $(RESULTS)
 
 help: ## list the targets
-	@sed -nE 's/^([a-z]+):.*## (.*)/\1\t\2/p' $(firstword $(MAKEFILE_LIST)) | while IFS=$$'\t' read -r target words; do \
-		printf '  make %-11s %s\n' "$$target" "$$words"; \
+	@sed -nE 's/^([a-z-]+):.*## (.*)/\1\t\2/p' $(firstword $(MAKEFILE_LIST)) | while IFS=$$'\t' read -r target words; do \
+		printf '  make %-12s %s\n' "$$target" "$$words"; \
 	done

