@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all setup setup-all test rtl bench exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs setup setup-all test rtl bench exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -33,6 +33,9 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 	else \
 		echo "The bound holds for every exponent of every preset."; \
 	fi
+
+docs: ## write the hardware reference, docs/hardware/, again
+	@$(BLYSK) document --all-presets --out docs/hardware
 
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup

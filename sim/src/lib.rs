@@ -3,6 +3,7 @@
 pub mod agreement;
 pub mod analysis;
 pub mod cmd;
+pub mod document;
 pub mod pipeline;
 pub mod plot;
 pub mod report;

@@ -82,6 +82,11 @@ impl Surroundings {
         let ulp = (-f64::from(fraction)).exp2();
         if self.rounding.is_nearest() { 0.5 * ulp } else { ulp }
     }
+
+    /// The same for a line whose exact value has `whole` fraction bits: nothing where all are kept.
+    pub(crate) fn rounding_error(&self, fraction: u32, whole: u32) -> f64 {
+        if fraction >= whole { 0.0 } else { self.line_error(fraction) }
+    }
 }
 
 impl Sensitivity {
@@ -107,17 +112,8 @@ impl Sensitivity {
             return Bound::default();
         }
         let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
-        let line = |fraction, whole| {
-            if fraction >= whole { 0.0 } else { surroundings.line_error(fraction) }
-        };
-        let error = if surroundings.centred {
-            line(v_bits, surroundings.input.saturating_sub(self.row.shift))
-        } else {
-            0.0
-        };
-        // Taylor's series of the cubic ends here, so this is no approximation.
-        let [first, second, third] = self.slopes;
-        let variable = error * (first + error * (second / 2.0 + error * third / 6.0));
+        let error = self.variable_error(v_bits, surroundings);
+        let variable = self.shown(error);
         // The lines see the rounded variable, which may lie outside the region by its error.
         let v = self.row.v.1 + error;
         let coefficient = [c0, c1, c2, c3]
@@ -125,11 +121,52 @@ impl Sensitivity {
             .zip(self.row.coefficients)
             .rev()
             .fold(0.0, |sum, (&fraction, value)| sum * v + coefficient_error(value, fraction));
-        let rounding = line(t1, (c3 + v_bits).max(c2)) * v * v
-            + line(t2, (t1 + v_bits).max(c1)) * v
-            + line(surroundings.output, (t2 + v_bits).max(c0));
+        let rounding = surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v
+            + surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v
+            + surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0));
         let ulp = (-f64::from(surroundings.output)).exp2();
         Bound { coefficient: coefficient / ulp, datapath: (variable + rounding) / ulp, tail: 0.0 }
+    }
+
+    /// What each register adds to the bound, in output ulp, in the order of [`Register::ALL`], and the
+    /// rounding of the result last. Their sum is the bound.
+    #[must_use]
+    pub fn shares(&self, bits: &FractionBits, surroundings: &Surroundings) -> [f64; 8] {
+        if !self.row.answers {
+            return [0.0; 8];
+        }
+        let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
+        let error = self.variable_error(v_bits, surroundings);
+        let v = self.row.v.1 + error;
+        let [k0, k1, k2, k3] = self.row.coefficients;
+        let shares = [
+            self.shown(error),
+            coefficient_error(k3, c3) * v * v * v,
+            coefficient_error(k2, c2) * v * v,
+            coefficient_error(k1, c1) * v,
+            coefficient_error(k0, c0),
+            surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v,
+            surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v,
+            surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0)),
+        ];
+        shares.map(|share| share * f64::from(surroundings.output).exp2())
+    }
+
+    /// The greatest error of the variable by its rounding.
+    fn variable_error(&self, v_bits: u32, surroundings: &Surroundings) -> f64 {
+        if surroundings.centred {
+            let whole = surroundings.input.saturating_sub(self.row.shift);
+            surroundings.rounding_error(v_bits, whole)
+        } else {
+            0.0
+        }
+    }
+
+    /// How an error of the variable shows in the result. Taylor's series of the cubic ends here, so
+    /// this is no approximation.
+    fn shown(&self, error: f64) -> f64 {
+        let [first, second, third] = self.slopes;
+        error * (first + error * (second / 2.0 + error * third / 6.0))
     }
 }
 

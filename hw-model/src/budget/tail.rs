@@ -48,6 +48,33 @@ pub fn bound(row: &RowTail, widths: &TailWidths, input: u32, surroundings: &Surr
     bound_of_bits(row, Bits { a, b, divisor }, input, surroundings)
 }
 
+/// What A, B, D and the rounding of the quotient add to the bound, in output ulp; A, B and D with
+/// `fewer` fraction bits less than these formats have. Their sum is the bound.
+#[must_use]
+pub fn shares(
+    row: &RowTail,
+    widths: &TailWidths,
+    fewer: u32,
+    input: u32,
+    surroundings: &Surroundings,
+) -> [f64; 4] {
+    let x = row.greatest_x;
+    if x == 0.0 {
+        return [0.0; 4];
+    }
+    let [a, b, divisor] = [widths.a, widths.b, widths.divisor]
+        .map(|format| format.fraction_bits().saturating_sub(fewer));
+    let errors = [
+        coefficient_error(row.a, a),
+        x * coefficient_error(row.b, b),
+        surroundings.rounding_error(divisor, (b + input).max(a)),
+    ];
+    let least = (row.a - row.b * x - errors.iter().sum::<f64>()).max(f64::MIN_POSITIVE);
+    let ulp = (-f64::from(surroundings.output)).exp2();
+    let [a, b, divisor] = errors.map(|error| error * x / (least * least) / ulp);
+    [a, b, divisor, surroundings.line_error(surroundings.output) / ulp]
+}
+
 fn bound_of_bits(row: &RowTail, bits: Bits, input: u32, surroundings: &Surroundings) -> f64 {
     let x = row.greatest_x;
     if x == 0.0 {

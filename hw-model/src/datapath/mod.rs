@@ -20,6 +20,7 @@ pub mod formats;
 pub mod front_end;
 mod keep;
 pub mod ranks;
+pub mod reach;
 pub mod signals;
 pub mod stage;
 pub mod tail;

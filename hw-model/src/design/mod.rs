@@ -7,6 +7,7 @@
 mod polynomial;
 mod real_row;
 mod rom_row;
+mod shares;
 mod tail;
 
 use thiserror::Error;
@@ -23,6 +24,7 @@ use crate::rom::{FieldName, Rom, Row};
 
 pub use real_row::RealRow;
 pub use rom_row::RomRow;
+pub use shares::Share;
 
 /// Why a configuration gives no hardware.
 #[derive(Debug, Error)]

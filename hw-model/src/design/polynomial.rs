@@ -69,7 +69,7 @@ pub(super) fn surroundings(config: &Config) -> Surroundings {
     }
 }
 
-fn stated(config: &Config, register: Register) -> Option<QFormat> {
+pub(super) fn stated(config: &Config, register: Register) -> Option<QFormat> {
     match register {
         // x in the power form is the input as it comes.
         Register::V if config.form == Form::Power => Some(config.input),
@@ -86,7 +86,7 @@ fn stated(config: &Config, register: Register) -> Option<QFormat> {
 /// The row in the variable of the form. In the centred form u = s·2^e, so k_i becomes k_i·2^−ie
 /// (exact in binary floating point). The region reaches from 1 to the cut; what the polynomial is fed
 /// where it does not answer, u = 0 or the greatest x, belongs to the range as well.
-fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
+pub(super) fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
     let cubic = row.polynomial.as_ref()?;
     let (one, ulp) = (config.input.one(), config.input.ulp());
     let greatest = config.input.max_bits().min(one);

@@ -74,7 +74,7 @@ pub(super) fn derive(
 }
 
 /// The divider is given x below the cut, or every x where there is no polynomial.
-fn row_tail(config: &Config, row: &RealRow) -> Option<RowTail> {
+pub(super) fn row_tail(config: &Config, row: &RealRow) -> Option<RowTail> {
     let rational = row.tail.as_ref()?;
     let greatest = config.input.max_bits().min(config.input.one());
     let last = if row.polynomial.is_some() { (row.cut - 1).min(greatest).max(0) } else { greatest };

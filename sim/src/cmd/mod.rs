@@ -6,6 +6,7 @@
 mod check;
 mod coefficients;
 mod configuration;
+mod document;
 mod presets;
 mod report;
 mod rom;
@@ -38,6 +39,7 @@ enum Command {
     Simulate(simulate::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
+    Document(document::Args),
     Presets(presets::Args),
 }
 
@@ -102,6 +104,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
+        Command::Document(args) => document::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

@@ -24,4 +24,6 @@ pub use axis::{Axis, Scale};
 pub use chart::{Chart, Mark, ReferenceLine, Series};
 pub use error::PlotError;
 pub use figures::{Curve, angle_grid, error_versus_exponent, intensity_versus_angle};
+#[cfg(test)]
+pub(crate) use raster::parse;
 pub use raster::svg_to_png;

@@ -42,7 +42,7 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
 }
 
 /// Reads an SVG with the bundled font and no other.
-pub(super) fn parse(svg: &str) -> Result<Tree, PlotError> {
+pub(crate) fn parse(svg: &str) -> Result<Tree, PlotError> {
     let options = Options {
         fontdb: Arc::clone(&FONTS),
         font_family: FONT_NAME.to_owned(),

@@ -4,8 +4,8 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 8] =
-    ["report", "vectors", "rtl", "check", "simulate", "coefficients", "rom", "presets"];
+const COMMANDS: [&str; 9] =
+    ["report", "vectors", "rtl", "check", "simulate", "coefficients", "rom", "document", "presets"];
 
 /// The command lines after "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<String> {
@@ -42,7 +42,7 @@ fn every_command_is_listed_and_has_an_example() {
         let (described, _) = help.split_once("\nUsage: ").expect("a usage");
         assert!(described.lines().count() > 2, "no more than the list says: {described}");
         assert!(
-            help.contains("--format") || ["vectors", "rtl", "check"].contains(&command),
+            help.contains("--format") || ["vectors", "rtl", "check", "document"].contains(&command),
             "{help}"
         );
     }

@@ -33,6 +33,7 @@ fn tables_fit_a_terminal() {
         commands.push(format!("rom {which}"));
         commands.push(format!("simulate {which} --stimulus in.csv"));
         commands.push(format!("vectors {which} --count 64 --out v"));
+        commands.push(format!("document {which} --out d"));
     }
     for which in &small {
         commands.push(format!("report {which} --bound 1 --out r"));
@@ -46,7 +47,8 @@ fn tables_fit_a_terminal() {
     for command in &commands {
         narrow(command, &bench.good(command));
     }
-    for command in ["", "report", "vectors", "check", "simulate", "coefficients", "rom", "presets"]
+    for command in
+        ["", "report", "vectors", "check", "simulate", "coefficients", "rom", "document", "presets"]
     {
         let command = format!("{command} --help");
         narrow(&command, &bench.good(&command));

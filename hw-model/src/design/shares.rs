@@ -1,0 +1,157 @@
+//! What each register adds to the error bound, and what one bit less of it would cost.
+
+use super::polynomial::{row_polynomial, stated, surroundings};
+use super::tail::row_tail;
+use super::{Design, RealRow};
+use crate::budget::RowTail;
+use crate::budget::error::{FractionBits, Register, Sensitivity};
+use crate::budget::tail::{TailWidths, shares};
+
+/// The part of one register in the error bound.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// The register: `u`, `c3` to `c0`, `t1`, `t2`, `t3`, `tail_a`, `tail_b`, `divisor`, `quotient`.
+    pub register: &'static str,
+    /// The most its rounding shows in the result over all rows, in output ulp.
+    pub ulp: f64,
+    /// The row where.
+    pub exponent: f64,
+    /// The worst row's whole bound with a fraction bit less, in output ulp; A, B and D give up theirs
+    /// together. None where the number of bits is not the budget's to choose.
+    pub one_bit_fewer: Option<f64>,
+}
+
+impl Share {
+    const fn new(register: &'static str) -> Self {
+        Self { register, ulp: 0.0, exponent: f64::NAN, one_bit_fewer: None }
+    }
+
+    fn raise(&mut self, ulp: f64, exponent: f64) {
+        if self.exponent.is_nan() || ulp > self.ulp {
+            (self.ulp, self.exponent) = (ulp, exponent);
+        }
+    }
+}
+
+impl Design {
+    /// The part of every register in the error bound; registers that the configuration does not have
+    /// are left out. Of one row they add up to its [`bounds`](Self::bounds).
+    #[must_use]
+    pub fn error_shares(&self) -> Vec<Share> {
+        let mut all = self.polynomial_shares();
+        all.extend(self.tail_shares());
+        all
+    }
+
+    fn polynomial_shares(&self) -> Vec<Share> {
+        let Some(formats) = &self.datapath.formats().polynomial else { return Vec::new() };
+        let config = &self.config;
+        let surroundings = surroundings(config);
+        let rows: Vec<Sensitivity> = of_rows(&self.rows, |row| row_polynomial(config, row))
+            .map(|row| Sensitivity::of(row, &surroundings))
+            .collect();
+        let [c0, c1, c2, c3] = formats.coefficients;
+        let bits: FractionBits = [formats.v, c3, c2, c1, c0, formats.t1, formats.t2]
+            .map(|format| format.fraction_bits());
+        let names = Register::ALL.map(Register::name).into_iter().chain(["t3"]);
+        let mut all: Vec<Share> = names.map(Share::new).collect();
+        for row in &rows {
+            let shares = row.shares(&bits, &surroundings);
+            for (share, ulp) in all.iter_mut().zip(shares) {
+                share.raise(ulp, row.row().exponent);
+            }
+        }
+        for (index, register) in Register::ALL.into_iter().enumerate() {
+            let chosen = stated(config, register).is_none() && bits[index] > 0;
+            all[index].one_bit_fewer = chosen.then(|| {
+                let mut fewer = bits;
+                fewer[index] -= 1;
+                let bounds = rows.iter().map(|row| row.bound(&fewer, &surroundings).total());
+                bounds.fold(0.0, f64::max)
+            });
+        }
+        // x is no register of its own.
+        all.retain(|share| surroundings.centred || share.register != Register::V.name());
+        all
+    }
+
+    fn tail_shares(&self) -> Vec<Share> {
+        let Some(formats) = &self.datapath.formats().tail else { return Vec::new() };
+        let widths = TailWidths { a: formats.a, b: formats.b, divisor: formats.divisor };
+        let surroundings = surroundings(&self.config);
+        let mut all = ["tail_a", "tail_b", "divisor", "quotient"].map(Share::new);
+        let mut worst = 0.0_f64;
+        let rows: Vec<RowTail> = of_rows(&self.rows, |row| row_tail(&self.config, row)).collect();
+        for row in &rows {
+            let of = |fewer| shares(row, &widths, fewer, surroundings.input, &surroundings);
+            for (share, ulp) in all.iter_mut().zip(of(0)) {
+                share.raise(ulp, row.exponent);
+            }
+            worst = worst.max(of(1).iter().sum());
+        }
+        let stated = &self.config.widths;
+        let chosen = [stated.tail_a, stated.tail_b, stated.divisor].map(|format| format.is_none());
+        for (share, chosen) in all.iter_mut().zip(chosen) {
+            share.one_bit_fewer = chosen.then_some(worst);
+        }
+        all.to_vec()
+    }
+}
+
+fn of_rows<'a, T: 'a>(
+    rows: &'a [RealRow],
+    of: impl Fn(&RealRow) -> Option<T> + 'a,
+) -> impl Iterator<Item = T> + 'a {
+    rows.iter().filter_map(of)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::presets;
+
+    #[test]
+    fn the_shares_of_a_row_are_its_bound() {
+        for preset in presets::ALL {
+            let design = Design::new(preset.config().unwrap()).unwrap();
+            let one_row = |exponent: f64| {
+                let mut config = design.config().clone();
+                config.exponents = exponent.to_string().parse().unwrap();
+                // The same formats for one row as for all of them.
+                if let Some(formats) = &design.datapath().formats().polynomial {
+                    let [c0, c1, c2, c3] = formats.coefficients.map(Some);
+                    let (t1, t2) = (Some(formats.t1), Some(formats.t2));
+                    let u = design.is_centred().then_some(formats.v);
+                    config.widths =
+                        crate::config::StatedWidths { u, c3, c2, c1, c0, t1, t2, ..config.widths };
+                }
+                if let Some(formats) = &design.datapath().formats().tail {
+                    config.widths.tail_a = Some(formats.a);
+                    config.widths.tail_b = Some(formats.b);
+                    config.widths.divisor = Some(formats.divisor);
+                }
+                Design::new(config).unwrap()
+            };
+            for exponent in [1.0, 2.0, 37.0, 256.0] {
+                let design = one_row(exponent);
+                let (polynomial, tail) = (design.polynomial_shares(), design.tail_shares());
+                let sum = |shares: &[Share]| shares.iter().map(|share| share.ulp).sum::<f64>();
+                let bound = design.bounds()[0];
+                let epicentre = bound.coefficient + bound.datapath;
+                assert!((sum(&polynomial) - epicentre).abs() < 1e-9, "{}", preset.name);
+                assert!((sum(&tail) - bound.tail).abs() < 1e-9, "{}", preset.name);
+            }
+        }
+    }
+
+    #[test]
+    fn no_bit_that_the_budget_chose_can_be_spared() {
+        for preset in presets::ALL {
+            let design = Design::new(preset.config().unwrap()).unwrap();
+            let budget = design.config().error_budget_ulp;
+            for share in design.error_shares() {
+                assert!(share.one_bit_fewer.is_none_or(|worst| worst > budget), "{share:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+use hw_model::config::Config;
+use hw_model::presets;
+use resvg::usvg::{Group, Node, Rect};
+
+use super::*;
+use crate::plot::parse;
+
+/// The presets, and what is unlike them: short and long dividers, one row, wide words.
+fn designs() -> Vec<Design> {
+    let others = [
+        r#"{"name": "a", "method": "hermite", "exponents": "1..=8", "input": "Q2.7", "output": "UQ1.6",
+            "tail": "rational", "form": "power", "quotient_bits_per_stage": 8}"#,
+        r#"{"name": "b", "method": "tangent", "exponents": "2.5", "input": "UQ0.9", "output": "UQ0.8",
+            "cut": "minimum", "rounding": "floor", "error_budget_ulp": 4}"#,
+        r#"{"name": "c", "method": "schlick", "exponents": "1,2,1000", "input": "Q2.30",
+            "output": "UQ1.24", "tail": "rational", "quotient_bits_per_stage": 1}"#,
+    ];
+    let configs = presets::ALL.map(|preset| preset.config().unwrap());
+    let others = others.map(|json| Config::from_json(json).unwrap());
+    configs.into_iter().chain(others).map(|config| Design::new(config).unwrap()).collect()
+}
+
+fn texts(group: &Group, found: &mut Vec<(String, Rect)>) {
+    for node in group.children() {
+        match node {
+            Node::Group(group) => texts(group, found),
+            Node::Text(text) => {
+                let words = text.chunks().iter().map(|chunk| chunk.text()).collect();
+                found.push((words, text.abs_bounding_box()));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Every word is inside the picture, and on top of no other.
+fn readable(svg: &str) {
+    let tree = parse(svg).unwrap();
+    let size = tree.size();
+    let mut found = Vec::new();
+    texts(tree.root(), &mut found);
+    assert!(found.len() > 10, "only {} texts", found.len());
+    for (index, (text, place)) in found.iter().enumerate() {
+        let inside = place.left() >= 0.0
+            && place.top() >= 0.0
+            && place.right() <= size.width()
+            && place.bottom() <= size.height();
+        assert!(inside, "{text:?} at {place:?} leaves the picture of {size:?}");
+        for (other, elsewhere) in &found[index + 1..] {
+            let apart = place.right() <= elsewhere.left()
+                || elsewhere.right() <= place.left()
+                || place.bottom() <= elsewhere.top() + 1.0
+                || elsewhere.bottom() <= place.top() + 1.0;
+            assert!(apart, "{text:?} at {place:?} covers {other:?} at {elsewhere:?}");
+        }
+    }
+}
+
+#[test]
+fn pictures_can_be_read() {
+    for design in designs() {
+        readable(&block::block(&design));
+        for scenario in scenario::scenarios(design.datapath()) {
+            readable(&timing::timing(design.datapath(), &scenario));
+        }
+    }
+}
+
+#[test]
+fn the_runs_show_what_their_words_say() {
+    for design in designs() {
+        let ranks = design.datapath().rank_count();
+        for scenario in scenario::scenarios(design.datapath()) {
+            let samples = &scenario.samples;
+            let out = |cycle: usize| samples[cycle].ranks[ranks - 1];
+            match scenario.name {
+                "run" => assert!((0..4).all(|index| out(ranks + 1 + index) == Some(index))),
+                "stall" => {
+                    let held = samples.iter().filter(|sample| !sample.in_ready).count();
+                    assert_eq!(held, 1 + 3, "the reset and the stall");
+                    assert!((1..=4).all(|cycle| out(ranks + cycle) == Some(0)));
+                    assert_eq!(out(ranks + 5), Some(1));
+                }
+                "bubble" => {
+                    assert!(samples[1..].iter().all(|sample| sample.in_ready));
+                    assert_eq!((out(ranks + 5), out(ranks + 6)), (Some(1), Some(2)));
+                }
+                _ => {
+                    assert!(samples[5].ranks.iter().all(Option::is_none));
+                    let results: Vec<_> = (0..samples.len()).filter_map(out).collect();
+                    assert_eq!(results, [3]);
+                }
+            }
+        }
+    }
+}
