@@ -1,6 +1,6 @@
 //! `make exhaustive`: every x of every exponent of a preset through the RTL, against the model.
 //!
-//! exhaustive <preset>... ; with no preset named, compact and paper. The results are streamed from the
+//! `exhaustive PRESET…`; with no preset named, compact and paper. The results are streamed from the
 //! verilated RTL and compared, not stored; two runs side by side, each with half of the exponents.
 
 use std::process::ExitCode;

@@ -1,6 +1,6 @@
 //! `make mutants`: do the emitted vectors catch wrong RTL?
 //!
-//! mutants <preset>... ; with none named, every preset. Writes `results/mutants/<preset>.csv` (every
+//! `mutants PRESET…`; with none named, every preset. Writes `results/mutants/<preset>.csv` (every
 //! mutant, and what each bundle's testbench found) and `matrix.csv` (the kill matrix).
 
 use std::collections::BTreeMap;
