@@ -68,8 +68,8 @@ pub const FAULTS: &[Fault] = &[
         ".SUBTRACT(1)" => ".SUBTRACT(0)", "divisor"),
     fault!("a quotient bit wrong at equality", "schlick", "blysk_tail_digits.sv",
         "doubled >= {1'b0, divisor_i}" => "doubled > {1'b0, divisor_i}", "remainder"),
-    fault!("no sticky bit", "paper", "blysk_clamp.sv",
-        "{2'b00, digits_i, |remainder_i}" => "{2'b00, digits_i, 1'b1}", "clamp.intensity"),
+    fault!("quotient not rounded", "paper", "blysk_clamp.sv",
+        ".MODE(blysk_pkg::QUOTIENT_ROUNDING)" => ".MODE(0)", "clamp.intensity"),
     fault!("polynomial and tail swapped", "paper", "blysk_clamp.sv",
         "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;" => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
 ];
