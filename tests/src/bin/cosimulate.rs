@@ -28,11 +28,7 @@ const VECTORS: u64 = 4096;
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur.
 const SMALL: [(&str, &str); 2] = [
-    (
-        "small",
-        r#"{"name": "small", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
-            "output": "UQ1.7", "cut": "minimum", "rounding": "nearest_even"}"#,
-    ),
+    ("small", include_str!("../../../docs/examples/small.json")),
     (
         "small_tail",
         r#"{"name": "small_tail", "method": "hermite", "exponents": "1..=16", "input": "UQ1.7",

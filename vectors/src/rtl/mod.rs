@@ -17,7 +17,7 @@ use crate::bundle::{Bundle, BundleError};
 use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
-pub use package::package;
+pub use package::{package, rounding_number};
 pub use testbench::testbench;
 
 use probes::StageWord;

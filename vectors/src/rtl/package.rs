@@ -14,6 +14,17 @@ use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
 use hw_model::rounding::Rounding;
 
+/// The number of a rounding mode in the RTL, as at the top of `blysk_round_shift.sv`.
+#[must_use]
+pub const fn rounding_number(mode: Rounding) -> u8 {
+    match mode {
+        Rounding::Floor => 0,
+        Rounding::NearestUp => 1,
+        Rounding::NearestEven => 2,
+        Rounding::TowardZero => 3,
+    }
+}
+
 /// The text of `blysk_pkg.sv`.
 #[must_use]
 pub fn package(design: &Design, command: &str) -> String {
@@ -110,15 +121,9 @@ impl Section {
             .rounding(name, mode)
     }
 
-    /// The mode, as `blysk_round_shift` numbers them.
+    /// The mode of a line.
     fn rounding(self, name: &str, mode: Rounding) -> Self {
-        let number = match mode {
-            Rounding::Floor => 0,
-            Rounding::NearestUp => 1,
-            Rounding::NearestEven => 2,
-            Rounding::TowardZero => 3,
-        };
-        let mut section = self.integer(format!("{name}_ROUNDING"), number);
+        let mut section = self.integer(format!("{name}_ROUNDING"), rounding_number(mode));
         if let Some(constant) = section.constants.last_mut() {
             constant.comment = format!("  // {mode}");
         }

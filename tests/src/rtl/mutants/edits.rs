@@ -5,6 +5,7 @@ use hw_model::rounding::Rounding;
 use vectors::faults::{
     DataRegister, Defect, Fault, HANDSHAKE, Logic, RoundingLine, pipeline_faults,
 };
+use vectors::rtl::rounding_number;
 
 /// A change of one place of one file.
 #[derive(Debug, Clone)]
@@ -45,15 +46,6 @@ fn change(file: &'static str, right: &str, wrong: &str) -> Change {
     (file, right.to_owned(), wrong.to_owned())
 }
 
-fn number(mode: Rounding) -> u8 {
-    match mode {
-        Rounding::Floor => 0,
-        Rounding::NearestUp => 1,
-        Rounding::NearestEven => 2,
-        Rounding::TowardZero => 3,
-    }
-}
-
 fn rounding(datapath: &Datapath, line: RoundingLine, mode: Rounding) -> Change {
     let (name, own) = match line {
         RoundingLine::Variable => ("U", datapath.front_end().rounding()),
@@ -63,9 +55,9 @@ fn rounding(datapath: &Datapath, line: RoundingLine, mode: Rounding) -> Change {
         RoundingLine::Divisor => ("DIVISOR", datapath.divider().map(|d| d.divisor.rounding())),
         RoundingLine::Quotient => ("QUOTIENT", datapath.divider().map(|d| d.rounding)),
     };
-    let own = number(own.unwrap_or_default());
+    let own = rounding_number(own.unwrap_or_default());
     let right = format!("{name}_ROUNDING = {own};");
-    (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", number(mode)))
+    (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", rounding_number(mode)))
 }
 
 /// Where a register is read, or shown to those who read it.
