@@ -34,8 +34,10 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 		echo "The bound holds for every exponent of every preset."; \
 	fi
 
-docs: ## write the hardware reference, docs/hardware/, again
+docs: ## write the hardware reference, docs/hardware/, and docs/CLAIMS.md again
 	@$(BLYSK) document --all-presets --out docs/hardware
+	@$(BLYSK) claims --format markdown > target/claims.md
+	@mv target/claims.md docs/CLAIMS.md
 
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup

@@ -4,6 +4,7 @@
 //! not the expected one; 2 a usage, configuration, input or output error.
 
 mod check;
+mod claims;
 mod coefficients;
 mod configuration;
 mod document;
@@ -37,6 +38,7 @@ enum Command {
     Rtl(rtl::Args),
     Check(check::Args),
     Simulate(simulate::Args),
+    Claims(claims::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
     Document(document::Args),
@@ -102,6 +104,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Rtl(args) => rtl::run(&args, out),
         Command::Check(args) => check::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
+        Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
         Command::Document(args) => document::run(&args, out),

@@ -1,4 +1,5 @@
 //! The files and figures of a report.
 
+pub mod claims;
 pub mod figures;
 pub mod files;
