@@ -36,6 +36,12 @@ pub enum Disagreement {
     /// There is no cycle in it.
     #[error("the log has no cycle in it: nothing was compared")]
     Nothing,
+    /// No result was taken in it.
+    #[error("no result was taken in the {cycles} cycles of the log: it shows little")]
+    NoResult {
+        /// Cycles compared.
+        cycles: u64,
+    },
     /// A register, flag or port differs.
     #[error("cycle {cycle}, line {line}: {name} is {got}, and {wanted} in the model")]
     Differs {
@@ -90,6 +96,9 @@ pub fn compare(datapath: &Datapath, log: impl BufRead) -> Result<Agreement, Disa
     }
     if agreement.registers == 0 {
         return Err(Disagreement::Nothing);
+    }
+    if agreement.results == 0 {
+        return Err(Disagreement::NoResult { cycles: agreement.cycles });
     }
     Ok(agreement)
 }

@@ -38,9 +38,8 @@ impl<W: Write> TraceWriter<W> {
         let mut csv = csv::Writer::from_writer(output);
         let mut header: Vec<String> = PORTS.map(str::to_owned).to_vec();
         for (rank, registers) in registers.iter().enumerate() {
-            let scope = datapath.rank_name(rank);
-            header.push(format!("{scope}.valid"));
-            header.extend(registers.iter().map(|register| format!("{scope}.{}", register.name)));
+            header.push(format!("{}.valid", datapath.rank_name(rank)));
+            header.extend(registers.iter().map(|register| datapath.register_name(rank, register)));
         }
         csv.write_record(&header).map_err(io_error)?;
         Ok(Self { csv, registers })

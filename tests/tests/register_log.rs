@@ -51,6 +51,7 @@ fn log(datapath: &Datapath, cycles: u64, seed: u64) -> String {
         text += "\n";
         pipeline.clock();
     }
+    writeln!(text, "R-END {cycles}").unwrap();
     text
 }
 
@@ -71,6 +72,22 @@ fn a_right_log_agrees_and_is_counted() {
     for count in [agreement.results, agreement.stalls, agreement.bubbles, agreement.resets] {
         assert!(count > 10, "{agreement:?}");
     }
+}
+
+/// A log that stops early says nothing of what would have followed.
+#[test]
+fn a_log_that_was_cut_off_is_refused() {
+    let right = log(design().datapath(), 300, 4);
+    let lines: Vec<&str> = right.lines().collect();
+    assert!(judge(&right).is_ok());
+    for kept in [lines.len() - 1, lines.len() / 2, 2] {
+        let message = judge(&lines[..kept].join("\n")).unwrap_err().to_string();
+        assert!(message.contains("cut off") && message.contains("R-END"), "{message}");
+    }
+    // Nor does one with another end, or one in which nothing came out.
+    assert!(judge(&right.replace("R-END 300", "R-END 301")).is_err());
+    let early = log(design().datapath(), 3, 4);
+    assert!(judge(&early).unwrap_err().to_string().contains("no result"), "{early}");
 }
 
 /// One digit of one register, wherever it stands, is found in its cycle and by its name.

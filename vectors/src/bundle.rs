@@ -20,6 +20,7 @@ use crate::manifest::{
 use crate::memory_file::{Header, write_header, write_word};
 use crate::negative_control::{Flip, NegativeControl};
 use crate::packing::WordLayout;
+use crate::rtl::{EXPONENTS, STAGES};
 use crate::stimulus::Stimulus;
 use crate::table::TableWriter;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
@@ -188,11 +189,21 @@ impl<'a> Bundle<'a> {
         Ok(manifest)
     }
 
+    /// The answer that is wrong in the negative control.
+    #[must_use]
+    pub fn flip(&self) -> Flip {
+        Flip::draw(self.design.datapath(), self.vector_count(), self.seed)
+    }
+
     /// Writes the files into a set that the caller commits, perhaps with files of its own.
     ///
     /// # Errors
     /// When a file cannot be written.
     pub fn stage(&self, set: &mut OutputSet) -> Result<Manifest, BundleError> {
+        // Of another bundle in the same directory, they would be about other vectors.
+        for name in [FAULTS, STAGES, EXPONENTS] {
+            set.obsolete(name);
+        }
         let words = Words::of(self.design.datapath());
         let mut files = BTreeMap::new();
         files.insert(ROM.to_owned(), self.stage_rom(set, &words.rom)?);
@@ -235,7 +246,7 @@ impl<'a> Bundle<'a> {
         let mut table = TableWriter::new(self.design, csv.0).map_err(in_table)?;
 
         let datapath = self.design.datapath();
-        let flip = Flip::draw(datapath, self.vector_count(), self.seed);
+        let flip = self.flip();
         let mut wrong = flip.record(&words.expected, 0);
         let mut kinds = BTreeMap::new();
         for (index, sample) in (0..).zip(self.samples()) {

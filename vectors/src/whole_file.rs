@@ -164,6 +164,7 @@ pub struct OutputSet {
     created: Vec<PathBuf>,
     begun: Vec<PathBuf>,
     finished: Vec<Finished>,
+    obsolete: Vec<PathBuf>,
 }
 
 impl OutputSet {
@@ -182,6 +183,7 @@ impl OutputSet {
             created: Vec::new(),
             begun: Vec::new(),
             finished: Vec::new(),
+            obsolete: Vec::new(),
         };
         let mut missing: Vec<&Path> = directory
             .ancestors()
@@ -245,6 +247,12 @@ impl OutputSet {
         self.keep(file)
     }
 
+    /// Says that a file of this name, left by an earlier run, would no longer belong to the others: unless
+    /// the set has it too, [`commit`](Self::commit) removes it.
+    pub fn obsolete(&mut self, name: &str) {
+        self.obsolete.push(self.directory.join(name));
+    }
+
     /// Gives every kept file its name, in the order of keeping, and returns their paths. Files of
     /// the same names are replaced.
     ///
@@ -255,6 +263,13 @@ impl OutputSet {
         let kept = |path: &PathBuf| self.finished.iter().any(|file| file.target == *path);
         if let Some(path) = self.begun.iter().find(|path| !kept(path)) {
             return Err(OutputError::Unfinished(path.clone()));
+        }
+        for path in &self.obsolete {
+            // Before the others get their names: what is left between is a file too few, not a wrong one.
+            if !kept(path) && path.is_file() {
+                fs::remove_file(path)
+                    .map_err(|cause| OutputError::Write { path: path.clone(), cause })?;
+            }
         }
         let mut paths = Vec::with_capacity(self.finished.len());
         for Finished { target, temporary } in std::mem::take(&mut self.finished) {

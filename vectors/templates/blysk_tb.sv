@@ -5,9 +5,11 @@
 //   - the handshake: in_ready_o and out_valid_o against a mirror of the rules, and so latency and order;
 //   - the results against expected.mem, also while they are stalled;
 <%- if white_box %>
-//   - every register of every rank against stages.mem, so that the first stage that departs is named.
+//   - every register of every rank against stages.mem, so that the first stage that departs is named;
+//     a rank that does not load must hold, whether it is stalled or empty.
 <%- endif %>
-// Stalls, bubbles and resets in mid-flight come from the seed; what a reset loses is sent again. X is
+// Stalls, bubbles and resets in mid-flight come from the seed; what a reset loses is sent again, and a
+// small bundle is sent several times. A request that is not taken stays as it is until it is. X is
 // never right (`!==`). Ends with one line, "PASS <count> vectors" or "FAIL ...".
 //
 // Options:
@@ -17,7 +19,8 @@
 //   +waves=FILE       dump waves
 //   +log=FILE         write every answer as CSV for `blysk check`, and do not stop at the first failure
 <%- if white_box %>
-//   +registers=N      no vectors: N random cycles, every register printed for `blysk check --registers`
+//   +registers=N      no vectors: N random cycles, every register printed for `blysk check --registers`;
+//                     any pattern of requests, also such as are withdrawn before they are taken
 <%- endif %>
 `timescale 1ns / 1ps
 `default_nettype none
@@ -32,6 +35,9 @@ module blysk_tb;
   localparam int OUTPUT   = [[ intensity.width ]];
   localparam int STATUS   = [[ status_width ]];
   localparam int STAGES   = [[ stage_width ]];
+  localparam int WORD     = [[ rom_width ]];
+  // Requests of a run at the least: enough for blocks with stalls, with bubbles, with both, and resets.
+  localparam int REQUESTS = 2048;
   // A word that no file wrote keeps its mark, which lies above the bits of the word.
   localparam int MARK     = 4;
 
@@ -42,13 +48,21 @@ module blysk_tb;
   logic [MARK+STAGES-1:0]        stages   [0:VECTORS-1];
 <%- endif %>
   logic [MARK+63:0]              exponents[0:DEPTH-1];
+  // The DUT reads it too; here only to see that all of it is there.
+  logic [MARK+WORD-1:0]          rom      [0:DEPTH-1];
 
   string  expected_file, waves_file, log_file;
-  integer seed, log, trace_cycles, i;
+  integer seed, log, trace_cycles, total, i;
   logic   plain;
 
-  task automatic complete(input logic unwritten, input string name, input integer index);
-    if (unwritten !== 1'b0) begin
+  // `known` is the exclusive or of the word's bits, which is x where one of them is.
+  task automatic complete(input logic unwritten, input logic known, input string name, input integer index);
+    if (ended) begin
+    end else if (known === 1'bx) begin
+      $display("FAIL %0s: word %0d has an x or z in it", name, index);
+      $finish;
+      ended = 1'b1;
+    end else if (unwritten !== 1'b0) begin
       $display("FAIL %0s: word %0d is missing; the file is not there or is too short", name, index);
       $finish;
       ended = 1'b1;
@@ -70,21 +84,30 @@ module blysk_tb;
       stages[i]   = '1;
 <%- endif %>
     end
-    for (i = 0; i < DEPTH; i = i + 1) exponents[i] = '1;
+    for (i = 0; i < DEPTH; i = i + 1) begin
+      exponents[i] = '1;
+      rom[i]       = '1;
+    end
     $readmemh("stimulus.mem", stimulus, 0, VECTORS - 1);
     $readmemh(expected_file, expected, 0, VECTORS - 1);
 <%- if white_box %>
     $readmemh("stages.mem", stages, 0, VECTORS - 1);
 <%- endif %>
     $readmemh("exponents.mem", exponents, 0, DEPTH - 1);
-    for (i = 0; i < VECTORS && !ended; i = i + 1) begin
-      complete(stimulus[i][MARK+ADDRESS+INPUT-1], "stimulus.mem", i);
-      if (!ended) complete(expected[i][MARK+STATUS+OUTPUT-1], expected_file, i);
+    $readmemh("rom.mem", rom, 0, DEPTH - 1);
+    for (i = 0; i < VECTORS; i = i + 1) begin
+      complete(stimulus[i][MARK+ADDRESS+INPUT-1], ^stimulus[i], "stimulus.mem", i);
+      complete(expected[i][MARK+STATUS+OUTPUT-1], ^expected[i], expected_file, i);
 <%- if white_box %>
-      if (!ended) complete(stages[i][MARK+STAGES-1], "stages.mem", i);
+      complete(stages[i][MARK+STAGES-1], ^stages[i], "stages.mem", i);
 <%- endif %>
     end
-    for (i = 0; i < DEPTH && !ended; i = i + 1) complete(exponents[i][MARK+63], "exponents.mem", i);
+    for (i = 0; i < DEPTH; i = i + 1) begin
+      complete(exponents[i][MARK+63], ^exponents[i], "exponents.mem", i);
+      complete(rom[i][MARK+WORD-1], ^rom[i], "rom.mem", i);
+    end
+    total = VECTORS;
+    while (!plain && total < REQUESTS && VECTORS > 0) total = total + VECTORS;
     if (VECTORS == 0 && !ended) begin
       $display("FAIL no vectors: nothing would be checked");
       $finish;
@@ -136,6 +159,7 @@ module blysk_tb;
 
   // ---- Failures -------------------------------------------------------------------------------------
   integer failures = 0;
+  string  first_failure;
   logic   ended;
 
   function automatic real value(input logic [63:0] bits, input integer width, input integer is_signed,
@@ -149,22 +173,26 @@ module blysk_tb;
     value = value / (2.0 ** fraction);
   endfunction
 
-  task automatic fail(input integer index, input string where, input logic [63:0] got,
-                      input logic [63:0] wanted, input integer width, input integer is_signed,
-                      input integer fraction);
+  task automatic fail(input integer index, input integer at_rank, input string where,
+                      input logic [63:0] got, input logic [63:0] wanted, input integer width,
+                      input integer is_signed, input integer fraction);
     logic [ADDRESS-1:0] fail_address;
     logic [INPUT-1:0]   fail_x;
     real                exponent;
     failures = failures + 1;
-    {fail_address, fail_x} = stimulus[index][ADDRESS+INPUT-1:0];
-    exponent = 0.0;
-    if (32'(fail_address) < DEPTH) exponent = $bitstoreal(exponents[32'(fail_address)][63:0]);
-    if (log == 0) begin
-      $display("FAIL vector %0d: address %0d (n = %0g), x = %0d'h%h (%0.9g), cycle %0d: %0s is %0d'h%0h (%0.9g), expected %0d'h%0h (%0.9g)",
+    if (failures == 1) begin
+      {fail_address, fail_x} = stimulus[index][ADDRESS+INPUT-1:0];
+      exponent = 0.0;
+      if (32'(fail_address) < DEPTH) exponent = $bitstoreal(exponents[32'(fail_address)][63:0]);
+      first_failure = $sformatf("vector %0d: address %0d (n = %0g), x = %0d'h%h (%0.9g), cycle %0d: %0s is %0d'h%0h (%0.9g), expected %0d'h%0h (%0.9g)%0s",
         index, fail_address, exponent, INPUT, fail_x,
         value(64'(fail_x), INPUT, [[ x.signed ]], [[ x.fraction ]]), cycle, where,
         width, got, value(got, width, is_signed, fraction),
-        width, wanted, value(wanted, width, is_signed, fraction));
+        width, wanted, value(wanted, width, is_signed, fraction),
+        loads[at_rank] ? "" : "; no load in this cycle, it must hold: its enable, or the handshake");
+    end
+    if (log == 0) begin
+      $display("FAIL %0s", first_failure);
       $finish;
       ended = 1'b1;
     end
@@ -179,13 +207,15 @@ module blysk_tb;
 
   // ---- The mirror: which vector each rank holds -----------------------------------------------------
   logic [RANKS-1:0] held, advance;
+  // Ranks that the last edge loaded, and those that any edge has.
+  logic [RANKS-1:0] loads, loaded;
   integer           vector_of [0:RANKS-1];
   integer           sent, received, cycle, stalls, bubbles, resets, reset_left, idle, rank;
   integer           words_compared, mode;
-  logic             expect_ready;
+  logic             expect_ready, waits;
 
   initial begin
-    held = '0;
+    held = '0; loads = '0; loaded = '0; waits = 1'b0;
     sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = 0;
     words_compared = 0;
     reset_left = 2;
@@ -195,18 +225,18 @@ module blysk_tb;
   // What each vector showed, for the log.
   logic [STAGES-1:0] seen [0:VECTORS-1];
 
-  // Every register of every rank that holds a vector; the first that departs is the fault's stage.
+  // Every register of every rank that was ever loaded; the first that departs is the fault's stage.
   task automatic compare_registers;
     logic [STAGES-1:0] word;
 <%- for rank in white_box_ranks %>
-    if (held[ [[ rank.index ]] ] && !ended) begin
+    if (loaded[ [[ rank.index ]] ] && !ended) begin
       word = stages[vector_of[ [[ rank.index ]] ]][STAGES-1:0];
 <%- for register in rank.registers %>
       if ([[ register.path ]] !== word[ [[ register.msb ]]:[[ register.lsb ]] ] && !ended)
-        fail(vector_of[ [[ rank.index ]] ], "[[ register.name ]]", 64'([[ register.path ]]),
+        fail(vector_of[ [[ rank.index ]] ], [[ rank.index ]], "[[ register.name ]]", 64'([[ register.path ]]),
           64'(word[ [[ register.msb ]]:[[ register.lsb ]] ]), [[ register.width ]], [[ register.signed ]], [[ register.fraction ]]);
 <%- if register.computed %>
-      seen[vector_of[ [[ rank.index ]] ]][ [[ register.msb ]]:[[ register.lsb ]] ] = [[ register.path ]];
+      if (held[ [[ rank.index ]] ]) seen[vector_of[ [[ rank.index ]] ]][ [[ register.msb ]]:[[ register.lsb ]] ] = [[ register.path ]];
 <%- endif %>
 <%- endfor %>
       words_compared = words_compared + [[ rank.count ]];
@@ -219,18 +249,18 @@ module blysk_tb;
     integer index;
     index = vector_of[RANKS-1];
     if (intensity !== expected[index][OUTPUT-1:0] && !ended)
-      fail(index, "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
+      fail(index, RANKS - 1, "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
     if (status !== expected[index][STATUS+OUTPUT-1:OUTPUT] && !ended)
-      fail(index, "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
+      fail(index, RANKS - 1, "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
     words_compared = words_compared + 2;
     if (out_ready && !rst) begin
-      if (index != received && !ended) begin
+      if (index != received % VECTORS && !ended) begin
         $display("FAIL order: a mistake of the mirror");
         $finish;
         ended = 1'b1;
       end
-      if (log != 0) $fwrite(log, "%0d,%h,%h[[ log_format ]]\n", index, intensity, status[[ log_values ]]);
-      received = index + 1;
+      if (log != 0 && received < VECTORS) $fwrite(log, "%0d,%h,%h[[ log_format ]]\n", index, intensity, status[[ log_values ]]);
+      received = received + 1;
     end
   endtask
 
@@ -244,25 +274,38 @@ module blysk_tb;
       if (out_valid !== held[RANKS-1] && !ended)
         fail_port("out_valid_o", out_valid, held[RANKS-1], "the latency is [[ ranks ]] cycles, and more where it is stalled");
 <%- if white_box %>
-      if (dut.handshake.valid_q !== held && !ended)
-        fail_port("a valid flag", 1'b0, 1'b1, "the mirror has another set of ranks that hold a vector");
+      for (rank = 0; rank < RANKS; rank = rank + 1) begin
+        if (dut.handshake.valid_q[rank] !== held[rank] && !ended)
+          fail_port($sformatf("the valid flag of rank %0d", rank), dut.handshake.valid_q[rank], held[rank],
+            "what a rank holds comes from the rank before it, when it advances");
+      end
 <%- endif %>
     end
   endtask
 
-  // What the edge does.
+  // What the edge does. A rank loads when it advances and is offered something; in reset the ranks from 1 on
+  // do so too, and only their valid flags are cleared.
   task automatic step;
+    loads = '0;
+    waits = in_valid && !advance[0] && !rst;
+    if (held[RANKS-1] && !out_ready && !rst) stalls = stalls + 1;
+    if (expect_ready && !in_valid && sent < total) bubbles = bubbles + 1;
     for (rank = RANKS - 1; rank > 0; rank = rank - 1) begin
       if (advance[rank]) begin
-        held[rank]      = held[rank-1];
-        vector_of[rank] = vector_of[rank-1];
+        held[rank]  = held[rank-1];
+        loads[rank] = held[rank-1];
+        if (held[rank-1]) vector_of[rank] = vector_of[rank-1];
       end
     end
     if (advance[0]) begin
-      held[0] = in_valid && !rst;
-      vector_of[0] = sent;
-      if (in_valid && !rst) sent = sent + 1;
+      held[0]  = in_valid && !rst;
+      loads[0] = in_valid && !rst;
+      if (in_valid && !rst) begin
+        vector_of[0] = sent % VECTORS;
+        sent = sent + 1;
+      end
     end
+    loaded = loaded | loads;
     if (rst) begin
       held = '0;
       // What was in flight is lost, and sent again.
@@ -270,26 +313,27 @@ module blysk_tb;
     end
   endtask
 
-  // What the next cycle is given.
+  // What the next cycle is given: blocks of 64 cycles without trouble, with stalls, with bubbles, with
+  // both, and then any of these.
   task automatic drive;
     draw;
-    if (cycle % 128 == 0) mode = plain || cycle < 128 ? 0 : 32'(random[9:8]);
+    if (cycle % 64 == 0) mode = plain ? 0 : cycle < 256 ? cycle / 64 : 32'(random[9:8]);
     if (reset_left > 0) reset_left = reset_left - 1;
-    else if (!plain && resets < 3 && sent > (resets + 1) * VECTORS / 4 && random[31:28] == 0) begin
+    else if (!plain && resets < 3 && sent > (resets + 1) * (total / 4) && random[31:28] == 0) begin
       reset_left = 2;
       resets = resets + 1;
     end
     rst <= reset_left > 0;
     out_ready <= !(mode[0] && random[0]);
-    if (mode[0] && random[0]) stalls = stalls + 1;
-    if (sent < VECTORS && !(mode[1] && random[1])) begin
+    if (waits) begin
+      // A request that was not taken stays.
+    end else if (sent < total && !(mode[1] && random[1])) begin
       in_valid <= 1'b1;
-      {address, x} <= stimulus[sent][ADDRESS+INPUT-1:0];
+      {address, x} <= stimulus[sent % VECTORS][ADDRESS+INPUT-1:0];
     end else begin
       // A bubble carries rubbish, which must not show.
       in_valid <= 1'b0;
       {address, x} <= (ADDRESS + INPUT)'({random, ~random, random});
-      if (sent < VECTORS) bubbles = bubbles + 1;
     end
   endtask
 
@@ -303,13 +347,15 @@ module blysk_tb;
       step;
       drive;
       cycle = cycle + 1;
-      if (received == VECTORS) idle = idle + 1;
+      if (received == total) idle = idle + 1;
       // Nothing more may come out.
       if (idle > 2 * RANKS && !ended) begin
         if (log != 0) $fclose(log);
         $display("%0d cycles, %0d stalls, %0d bubbles, %0d resets, %0d values compared",
           cycle, stalls, bubbles, resets, words_compared);
-        if (failures != 0) $display("FAIL %0d values differ; see the log", failures);
+        if (failures != 0) $display("FAIL %0d values differ; the first: %0s", failures, first_failure);
+        else if (!plain && (stalls == 0 || bubbles == 0 || resets == 0))
+          $display("FAIL a run without stalls, bubbles or resets shows little; use another +seed");
         else $display("PASS %0d vectors", VECTORS);
         $finish;
         ended = 1'b1;
@@ -347,6 +393,7 @@ module blysk_tb;
       drive_anything;
       cycle = cycle + 1;
       if (cycle == trace_cycles) begin
+        $display("R-END %0d", cycle);
         $finish;
         ended = 1'b1;
       end

@@ -102,7 +102,7 @@ fn the_table_shows_every_stage() {
         let passage = datapath.passage(address, x);
         for (rank, held) in passage.iter().enumerate() {
             for register in datapath.registers(rank).iter().filter(|register| register.computed) {
-                let name = format!("{}.{}", datapath.rank_name(rank), register.name);
+                let name = datapath.register_name(rank, register);
                 if column(&name).is_none() {
                     let port = ["address", "x", "intensity", "status"].contains(&register.name);
                     assert!(port && (rank == 0 || rank + 1 == passage.len()), "{name}");

@@ -15,6 +15,24 @@ fn names(directory: &Path) -> Vec<String> {
 }
 
 #[test]
+fn what_an_earlier_run_left_goes_with_the_commit_and_not_before() {
+    let home = tempfile::tempdir().unwrap();
+    let place = |name: &str| home.path().join(name);
+    for name in ["old.mem", "both.mem", "mine.txt"] {
+        std::fs::write(place(name), "left").unwrap();
+    }
+    let mut set = OutputSet::create(home.path()).unwrap();
+    set.obsolete("old.mem");
+    set.obsolete("both.mem");
+    set.obsolete("never.mem");
+    set.write("both.mem", "new").unwrap();
+    assert!(place("old.mem").exists());
+    set.commit().unwrap();
+    assert!(!place("old.mem").exists() && place("mine.txt").exists());
+    assert_eq!(std::fs::read_to_string(place("both.mem")).unwrap(), "new");
+}
+
+#[test]
 fn committed_files_are_all_there_and_nothing_else() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("a/b");

@@ -104,6 +104,18 @@ impl Datapath {
         }
     }
 
+    /// The name of a register of a rank: `stage1.t1`. A register of the divider has the divider's name also
+    /// where a multiply-add stage gives the rank its own: `tail0.divisor`.
+    #[must_use]
+    pub fn register_name(&self, rank: usize, register: &Register) -> String {
+        match register.name {
+            "divisor" | "remainder" | "digits" => {
+                format!("tail{}.{}", rank - HEAD_RANKS, register.name)
+            }
+            name => format!("{}.{name}", self.rank_name(rank)),
+        }
+    }
+
     /// What rank 0 takes in: address, x, and the ROM word.
     #[inline]
     #[must_use]

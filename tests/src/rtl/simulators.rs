@@ -179,7 +179,10 @@ impl Simulator {
             command.arg("-n").arg(build.join("blysk.vvp"));
             command
         } else {
-            Command::new(build.join("verilated/blysk_tb"))
+            let mut command = Command::new(build.join("verilated/blysk_tb"));
+            // As in the Makefile: registers begin with anything.
+            command.args(["+verilator+rand+reset+2", "+verilator+seed+1"]);
+            command
         };
         command.current_dir(directory);
         command

@@ -18,6 +18,8 @@ pub struct Emitted<'a> {
     pub directory: PathBuf,
     /// Vectors in it.
     pub vectors: u64,
+    /// The vector that is wrong in the negative control.
+    pub control: u64,
 }
 
 /// A fresh directory `target/rtl/<name>` with the RTL of a design and its vectors.
@@ -38,12 +40,12 @@ pub fn emit<'a>(
     let command = format!("make rtl, {name}");
     let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {
         let mut set = OutputSet::create(&directory)?;
-        rtl::stage(&bundle, TOP, &command, &mut set)?;
+        let manifest = rtl::stage(&bundle, TOP, &command, &mut set)?;
         set.commit()?;
-        Ok(bundle.vector_count())
+        Ok((bundle.vector_count(), manifest.negative_control.vector))
     });
     match written {
-        Ok(vectors) => Ok(Emitted { design, directory, vectors }),
+        Ok((vectors, control)) => Ok(Emitted { design, directory, vectors, control }),
         Err(error) => failed(error.to_string()),
     }
 }

@@ -30,7 +30,9 @@ fn columns(trace: &Trace, design: &Design) {
     for (rank, name) in rank_names(design).iter().enumerate() {
         wanted.push(format!("{name}.valid"));
         let registers = design.datapath().registers(rank);
-        wanted.extend(registers.iter().map(|register| format!("{name}.{}", register.name)));
+        wanted.extend(
+            registers.iter().map(|register| design.datapath().register_name(rank, register)),
+        );
     }
     assert_eq!(trace.header, wanted);
 }
@@ -77,7 +79,7 @@ fn against_a_model(trace: &Trace, design: &Design, stimulus: &Stimulus, place: &
             assert_eq!(trace.flag(cycle, &format!("{name}.valid")), rank.valid, "{}", at(name));
             let held = rank.held.map(|(address, x)| datapath.passage(address, x)[index]);
             for register in datapath.registers(index) {
-                let column = format!("{name}.{}", register.name);
+                let column = datapath.register_name(index, &register);
                 let wanted = held.as_ref().map(|held: &Signals| (register.bits)(held));
                 assert_eq!(trace.get(cycle, &column), wanted, "{}", at(&column));
             }
@@ -146,6 +148,13 @@ fn results_in_order(trace: &Trace, design: &Design, place: &str) {
 /// bit; before its first load it is unknown, and never after; a reset empties every rank.
 fn registers_hold(trace: &Trace, design: &Design, place: &str) {
     let names = rank_names(design);
+    let datapath = design.datapath();
+    let columns: Vec<Vec<String>> = (0..names.len())
+        .map(|rank| {
+            let registers = datapath.registers(rank);
+            registers.iter().map(|register| datapath.register_name(rank, register)).collect()
+        })
+        .collect();
     let valid = |cycle: usize, rank: usize| trace.flag(cycle, &format!("{}.valid", names[rank]));
     let (mut kept, mut loads) = (0, 0);
     for cycle in 0..trace.len() - 1 {
@@ -158,7 +167,7 @@ fn registers_hold(trace: &Trace, design: &Design, place: &str) {
                 _ => valid(cycle, rank - 1),
             };
             assert!(!(reset && valid(cycle + 1, rank)), "{place}, cycle {cycle}: reset");
-            for register in trace.registers(&names[rank]) {
+            for register in &columns[rank] {
                 let (now, next) = (trace.get(cycle, register), trace.get(cycle + 1, register));
                 if advances && offered {
                     assert!(next.is_some(), "{place}, cycle {cycle}: {register} is unknown");
@@ -170,10 +179,8 @@ fn registers_hold(trace: &Trace, design: &Design, place: &str) {
             }
         }
     }
-    for name in &names {
-        for register in trace.registers(name) {
-            assert_eq!(trace.get(0, register), None, "{place}: {register} is known too early");
-        }
+    for register in columns.iter().flatten() {
+        assert_eq!(trace.get(0, register), None, "{place}: {register} is known too early");
     }
     assert!(kept > 0 && loads > 0, "{place}: {kept} registers kept, {loads} loaded");
 }

@@ -44,13 +44,4 @@ impl Trace {
         assert!(value == 0 || value == 1, "cycle {cycle}: {column} is {value}");
         value == 1
     }
-
-    /// The columns of a rank's data registers.
-    pub fn registers(&self, rank: &str) -> Vec<&str> {
-        let of_rank = |name: &&String| {
-            name.split_once('.')
-                .is_some_and(|(scope, register)| scope == rank && register != "valid")
-        };
-        self.header.iter().filter(of_rank).map(String::as_str).collect()
-    }
 }

@@ -56,17 +56,18 @@ pub fn signals(design: &Design) -> Vec<Signal> {
         .into();
     for rank in 0..datapath.rank_count() {
         let scope = datapath.rank_name(rank);
-        let mut add = |register: &str, width| {
+        let mut add = |register: &str, column, width| {
             signals.push(Signal {
                 scope: scope.clone(),
                 name: format!("{register}_q"),
-                column: format!("{scope}.{register}"),
+                column,
                 width,
             });
         };
-        add("valid", 1);
+        add("valid", format!("{scope}.valid"), 1);
         for register in datapath.registers(rank) {
-            add(register.name, register.format.width());
+            let column = datapath.register_name(rank, &register);
+            add(register.name, column, register.format.width());
         }
     }
     signals

@@ -40,6 +40,8 @@ pub struct Sources<'a> {
     pub dut: &'a str,
     /// Vectors in the bundle.
     pub vectors: u64,
+    /// The vector whose answer is wrong in the negative control.
+    pub control: u64,
     /// The command that made the files.
     pub command: &'a str,
 }
@@ -64,7 +66,13 @@ pub fn stage(
     set: &mut OutputSet,
 ) -> Result<Manifest, BundleError> {
     let design = bundle.design();
-    let sources = Sources { design, dut, vectors: bundle.vector_count(), command };
+    let sources = Sources {
+        design,
+        dut,
+        vectors: bundle.vector_count(),
+        control: bundle.flip().vector,
+        command,
+    };
     for (name, text) in SOURCES {
         set.write(name, text)?;
     }

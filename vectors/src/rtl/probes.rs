@@ -7,7 +7,7 @@ use hw_model::datapath::{Datapath, Register};
 pub struct Probe {
     /// The rank.
     pub rank: usize,
-    /// The rank's name and the register's: `stage1.t1`.
+    /// Its name with its part's: `stage1.t1`.
     pub name: String,
     /// The model's register.
     pub register: Register,
@@ -21,9 +21,8 @@ pub struct Probe {
 pub fn probes(datapath: &Datapath) -> Vec<Probe> {
     let mut probes = Vec::new();
     for rank in 0..datapath.rank_count() {
-        let scope = datapath.rank_name(rank);
         for register in datapath.registers(rank) {
-            let name = format!("{scope}.{}", register.name);
+            let name = datapath.register_name(rank, &register);
             let path = path(datapath, rank, register.name);
             probes.push(Probe { rank, name, register, path });
         }

@@ -2,7 +2,8 @@
 //!
 //! A line begins with `R`; other lines (a simulator's own) are passed over. Its words are hex: the
 //! ports rst, in_valid, in_ready, address, x, out_valid, out_ready, then for each rank its valid flag
-//! and its registers, in the order of [`probes`]. A word with x or z in it is unknown.
+//! and its registers, in the order of [`probes`]. A word with x or z in it is unknown. The last line is
+//! `R-END` and the number of cycles: without it a log that was cut off would agree.
 
 use std::io::{self, BufRead};
 
@@ -10,6 +11,9 @@ use hw_model::datapath::Datapath;
 use thiserror::Error;
 
 use super::probes::{Probe, probes};
+
+/// What the last line begins with; the number of cycles follows.
+pub const END: &str = "R-END ";
 
 /// Ports at the start of a line.
 const PORTS: usize = 7;
@@ -43,6 +47,17 @@ pub enum RegisterLogError {
         line: u64,
         /// The word.
         text: String,
+    },
+    /// The log stops before its end.
+    #[error(
+        "after line {line}: the log has no line \"R-END {cycles}\", which the testbench prints after its \
+         last cycle; was it cut off?"
+    )]
+    Unfinished {
+        /// The last line, counted from 1.
+        line: u64,
+        /// Cycles read.
+        cycles: u64,
     },
     /// An input that only the testbench drives is unknown.
     #[error("line {line}: the input {port} is unknown; it is driven by the testbench, never x")]
@@ -84,13 +99,23 @@ pub struct RegisterLog<'a, R> {
     input: R,
     text: String,
     current: RegisterLine,
+    cycles: u64,
+    ended: bool,
 }
 
 impl<'a, R: BufRead> RegisterLog<'a, R> {
     /// The log of a data path.
     pub fn new(datapath: &'a Datapath, input: R) -> Self {
         let probes = probes(datapath);
-        Self { datapath, probes, input, text: String::new(), current: RegisterLine::default() }
+        Self {
+            datapath,
+            probes,
+            input,
+            text: String::new(),
+            current: RegisterLine::default(),
+            cycles: 0,
+            ended: false,
+        }
     }
 
     /// The registers, in the order of a line (valid flags apart).
@@ -99,10 +124,10 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
         &self.probes
     }
 
-    /// The next cycle; `None` at the end.
+    /// The next cycle; `None` after the line that says how many there were.
     ///
     /// # Errors
-    /// When the log cannot be read, or is not one of this data path.
+    /// When the log cannot be read, is not one of this data path, or is cut off.
     pub fn next_cycle(&mut self) -> Result<Option<&RegisterLine>, RegisterLogError> {
         loop {
             self.text.clear();
@@ -110,11 +135,18 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
             let line = self.current.line;
             let read = self.input.read_line(&mut self.text);
             if read.map_err(|cause| RegisterLogError::Io { line, cause })? == 0 {
-                return Ok(None);
+                let cycles = self.cycles;
+                let unfinished = RegisterLogError::Unfinished { line: line - 1, cycles };
+                // A file without any cycle is not one that was cut off; whoever asked finds nothing in it.
+                return if self.ended || cycles == 0 { Ok(None) } else { Err(unfinished) };
             }
             if self.text.starts_with("R ") {
                 self.parse()?;
+                self.cycles += 1;
                 return Ok(Some(&self.current));
+            }
+            if let Some(end) = self.text.strip_prefix(END) {
+                self.ended = end.trim().parse() == Ok(self.cycles);
             }
         }
     }

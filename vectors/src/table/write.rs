@@ -120,7 +120,7 @@ fn header(datapath: &Datapath, columns: &[(usize, Register)]) -> Vec<String> {
     ];
     let mut header: Vec<String> = input.map(str::to_owned).into();
     for (rank, register) in columns {
-        let name = format!("{}.{}", datapath.rank_name(*rank), register.name);
+        let name = datapath.register_name(*rank, register);
         header.extend([name.clone(), format!("{name}_hex")]);
     }
     header.extend(output.map(str::to_owned));
