@@ -123,9 +123,11 @@ impl Dump {
             ["in_ready_o", "out_valid_o", "intensity_o", "status_o"]
                 .map(|port| (port.to_owned(), port.to_owned()))
                 .to_vec();
-        names.extend(
-            probes(datapath).into_iter().map(|probe| (format!("{}_q", probe.name), probe.path)),
-        );
+        // Waves have a scope for each rank, whatever part of the pipeline a register belongs to.
+        names.extend(probes(datapath).into_iter().map(|probe| {
+            let scope = datapath.rank_name(probe.rank);
+            (format!("{scope}.{}_q", probe.register.name), probe.path)
+        }));
         let mut compared = 0;
         for (name, path) in names {
             let ours = model.get(&format!("blysk.{name}"));
