@@ -1,0 +1,238 @@
+//! The ways to compute coefficients, each written once for any kind of number.
+//!
+//! q = Q^(1/n), r the same, l = G^(1/n), p = 1 − q. \[Rom\] prints, for Q = 1/2,
+//!
+//! ```text
+//! hermite      a = ((q−1)(2q+n) + 1)/(2(q−1)²q²)      b = −(q²(4q−3) + n(q²−1) + 1)/(2(q−1)²q²)
+//! three_point  a = (l²(Q−1) + G(1−r²) + r² − Q)/N     b = (l³(Q−1) + G(1−r³) − Q + r³)/N
+//!              c = (l²(Q−r²) + l²(r³−r^n) + G·r²(1−r))/N
+//!              N = l³(1−r²) + l²(r³−1) − r²(r−1)
+//! rational     A = 2n·q                               B = 2n − 2
+//! ```
+//!
+//! with q = e^(−0.6931471/n). The three for `three_point` do not solve the system printed above them,
+//! so that their exact values are those of the expressions; the others' are those of the conditions.
+
+use hw_model::fit::{Levels, Method};
+
+use super::wide::Real;
+
+/// How the coefficients are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Way {
+    /// The formulas as \[Rom\] prints them, and ln 2 as it prints it, 0.6931471.
+    PrintedConstant,
+    /// The formulas as \[Rom\] prints them, q = Q^(1/n).
+    Printed,
+    /// Divided differences, p = 1 − q by subtraction.
+    Naive,
+    /// The same with p = −expm1(ln Q/n), and no other difference of neighbours that can be had so.
+    Stable,
+    /// What the hardware's ROM is made from: 106 bits, rounded once.
+    Fit,
+}
+
+impl Way {
+    /// Every way, in the order above.
+    pub const ALL: [Self; 5] =
+        [Self::PrintedConstant, Self::Printed, Self::Naive, Self::Stable, Self::Fit];
+
+    /// The name in tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::PrintedConstant => "printed_constant",
+            Self::Printed => "printed",
+            Self::Naive => "naive",
+            Self::Stable => "stable",
+            Self::Fit => "fit",
+        }
+    }
+}
+
+/// The coefficients of one exponent in the two forms. Of `rational` the first holds A and B, the second A − B.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Forms<R> {
+    /// a, b, c, d.
+    pub power: Vec<R>,
+    /// k1, k2, k3.
+    pub centred: Vec<R>,
+}
+
+/// The coefficients of a method in one way; none where the way does not have them.
+pub(super) fn forms<R: Real>(method: Method, way: Way, n: f64, levels: Levels) -> Option<Forms<R>> {
+    let n = R::of(n);
+    match (method, way) {
+        (_, Way::Fit) => None,
+        (Method::Hermite, Way::PrintedConstant) => {
+            Some(printed_hermite(&n, &(R::of(-0.693_147_1) / n.clone()).exp()))
+        }
+        (Method::Hermite, Way::Printed) => Some(printed_hermite(&n, &R::root_of(levels.q(), &n))),
+        (Method::ThreePoint, Way::Printed) => Some(printed_three_point(&n, levels)),
+        (Method::Rational, Way::Printed) => Some(ratio(
+            R::of(2.0) * n.clone() * R::root_of(levels.q(), &n),
+            R::of(2.0) * n - R::of(2.0),
+        )),
+        (_, Way::Printed | Way::PrintedConstant) => None,
+        (Method::Hermite, _) => Some(hermite(&Differences::new(&n, way, levels.q()))),
+        (Method::Quadratic, _) => Some(quadratic(&Differences::new(&n, way, levels.q()))),
+        (Method::ThreePoint, _) => Some(three_point(&n, way, levels)),
+        (Method::Tangent, _) => Some(tangent(&n, way, levels.q())),
+        (Method::Rational, _) => Some(rational(&n, way, levels.q())),
+        (Method::Composite | Method::Schlick, _) => None,
+    }
+}
+
+fn printed_hermite<R: Real>(n: &R, q: &R) -> Forms<R> {
+    let of = R::of;
+    let (n, q) = (|| n.clone(), || q.clone());
+    let below = of(2.0) * (q() - of(1.0)) * (q() - of(1.0)) * q() * q();
+    let a = ((q() - of(1.0)) * (of(2.0) * q() + n()) + of(1.0)) / below.clone();
+    let b =
+        -(q() * q() * (of(4.0) * q() - of(3.0)) + n() * (q() * q() - of(1.0)) + of(1.0)) / below;
+    let c = of(1.0) - a.clone() - b.clone();
+    of_power(a, b, c)
+}
+
+fn printed_three_point<R: Real>(n: &R, levels: Levels) -> Forms<R> {
+    let of = R::of;
+    let (level, low) = (|| of(levels.q()), || of(levels.g()));
+    let (r, l) = (R::root_of(levels.q(), n), R::root_of(levels.g(), n));
+    let (r2, l2) = (r.clone() * r.clone(), l.clone() * l.clone());
+    let (r3, l3) = (r2.clone() * r.clone(), l2.clone() * l);
+    let below = l3.clone() * (of(1.0) - r2.clone()) + l2.clone() * (r3.clone() - of(1.0))
+        - r2.clone() * (r.clone() - of(1.0));
+    let a =
+        l2.clone() * (level() - of(1.0)) + low() * (of(1.0) - r2.clone()) + r2.clone() - level();
+    let b = l3 * (level() - of(1.0)) + low() * (of(1.0) - r3.clone()) - level() + r3.clone();
+    // r^n is Q.
+    let c = l2.clone() * (level() - r2.clone()) + l2 * (r3 - level()) + low() * r2 * (of(1.0) - r);
+    let over = |above: R| above / below.clone();
+    Forms { power: vec![over(a), over(b), over(c)], centred: Vec::new() }
+}
+
+/// a, b, c with d = 0, and what follows from them for the centred form.
+fn of_power<R: Real>(a: R, b: R, c: R) -> Forms<R> {
+    let times = |factor: f64, value: &R| R::of(factor) * value.clone();
+    let k1 = times(3.0, &a) + times(2.0, &b) + c.clone();
+    let k2 = times(3.0, &a) + b.clone();
+    Forms { centred: vec![k1, k2, a.clone()], power: vec![a, b, c, R::of(0.0)] }
+}
+
+fn of_centred<R: Real>(k1: R, k2: R, k3: R) -> Forms<R> {
+    let times = |factor: f64, value: &R| R::of(factor) * value.clone();
+    let b = k2.clone() - times(3.0, &k3);
+    let c = k1.clone() - times(2.0, &k2) + times(3.0, &k3);
+    let d = R::of(1.0) - k1.clone() + k2.clone() - k3.clone();
+    Forms { power: vec![k3.clone(), b, c, d], centred: vec![k1, k2, k3] }
+}
+
+fn ratio<R: Real>(a: R, b: R) -> Forms<R> {
+    Forms { power: vec![a.clone(), b.clone()], centred: vec![a - b] }
+}
+
+/// 1 − level^(1/n), with or without cancellation.
+fn complement<R: Real>(n: &R, way: Way, level: f64) -> R {
+    match way {
+        Way::Stable => -(R::of(level).ln() / n.clone()).exp_m1(),
+        _ => R::of(1.0) - R::root_of(level, n),
+    }
+}
+
+/// D1 = (Q−1)/p, D2 = (−nQ/q − D1)/p, D3 = Q(n−1)/q² − D2.
+struct Differences<R> {
+    p: R,
+    d1: R,
+    d2: R,
+    d3: R,
+}
+
+impl<R: Real> Differences<R> {
+    fn new(n: &R, way: Way, level: f64) -> Self {
+        let p = complement(n, way, level);
+        let q = R::root_of(level, n);
+        let level = R::of(level);
+        let d1 = (level.clone() - R::of(1.0)) / p.clone();
+        let d2 = (-(n.clone() * level.clone() / q.clone()) - d1.clone()) / p.clone();
+        let d3 = level * (n.clone() - R::of(1.0)) / (q.clone() * q) - d2.clone();
+        Self { p, d1, d2, d3 }
+    }
+}
+
+fn hermite<R: Real>(differences: &Differences<R>) -> Forms<R> {
+    let Differences { p, d1, d2, d3 } = differences.clone();
+    let k1 = -(d1 - p.clone() * d2.clone() + p.clone() * p.clone() * d3.clone());
+    of_centred(k1, d2 - R::of(2.0) * p * d3.clone(), -d3)
+}
+
+fn quadratic<R: Real>(differences: &Differences<R>) -> Forms<R> {
+    let Differences { p, d1, d2, .. } = differences.clone();
+    of_centred(-(d1 - p * d2.clone()), d2, R::of(0.0))
+}
+
+impl<R: Clone> Clone for Differences<R> {
+    fn clone(&self) -> Self {
+        Self { p: self.p.clone(), d1: self.d1.clone(), d2: self.d2.clone(), d3: self.d3.clone() }
+    }
+}
+
+/// e1 = (Q/r − 1)/(r − 1), e2 = (G/l − 1)/(l − 1), a = (e1 − e2)/(r − l), b = e1 − a(1 + r).
+fn three_point<R: Real>(n: &R, way: Way, levels: Levels) -> Forms<R> {
+    let (r, l) = (R::root_of(levels.q(), n), R::root_of(levels.g(), n));
+    // level/x − 1 = level^(1 − 1/n) − 1.
+    let excess = |level: f64, x: &R| match way {
+        Way::Stable => (R::of(level).ln() * (n.clone() - R::of(1.0)) / n.clone()).exp_m1(),
+        _ => R::of(level) / x.clone() - R::of(1.0),
+    };
+    let e1 = -(excess(levels.q(), &r) / complement(n, way, levels.q()));
+    let e2 = -(excess(levels.g(), &l) / complement(n, way, levels.g()));
+    let between = match way {
+        Way::Stable => {
+            let logs = R::of(levels.q()).ln() - R::of(levels.g()).ln();
+            l * (logs / n.clone()).exp_m1()
+        }
+        _ => r.clone() - l,
+    };
+    let a = (e1.clone() - e2) / between;
+    let b = e1 - a.clone() * (R::of(1.0) + r);
+    let c = R::of(1.0) - a.clone() - b.clone();
+    of_power(a, b, c)
+}
+
+/// k = √(Q/r), u = (1 − k)/(1 − r), v = (r − k)/(1 − r), f = x(ux − v)².
+fn tangent<R: Real>(n: &R, way: Way, level: f64) -> Forms<R> {
+    let p = complement(n, way, level);
+    let r = R::root_of(level, n);
+    let k = (R::of(level) / r.clone()).sqrt();
+    let (u, v) = match way {
+        Way::Stable => {
+            let twice = R::of(2.0) * n.clone();
+            let log = R::of(level).ln();
+            let u = -(log.clone() * (n.clone() - R::of(1.0)) / twice.clone()).exp_m1();
+            let v = k * (log * (R::of(3.0) - n.clone()) / twice).exp_m1();
+            (u, v)
+        }
+        _ => (R::of(1.0) - k.clone(), r - k),
+    };
+    let (u, v) = (u / p.clone(), v / p);
+    let (a, c) = (u.clone() * u.clone(), v.clone() * v.clone());
+    of_power(a, -(R::of(2.0) * u * v), c)
+}
+
+/// A = nq/Q, B = (n − 1)/Q; A − B = (1 − n·p)/Q.
+fn rational<R: Real>(n: &R, way: Way, level: f64) -> Forms<R> {
+    let p = complement(n, way, level);
+    let q = match way {
+        Way::Stable => R::root_of(level, n),
+        _ => R::of(1.0) - p.clone(),
+    };
+    let level = R::of(level);
+    let a = n.clone() * q / level.clone();
+    let b = (n.clone() - R::of(1.0)) / level.clone();
+    let difference = match way {
+        Way::Stable => (R::of(1.0) - n.clone() * p) / level,
+        _ => a.clone() - b.clone(),
+    };
+    Forms { power: vec![a, b], centred: vec![difference] }
+}
