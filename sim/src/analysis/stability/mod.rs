@@ -11,5 +11,9 @@
 //! "Stiff" means large n: the slope at x = 1 is n, power-form coefficients grow as n², and p → 0.
 
 pub mod coefficients;
+pub mod conditioning;
+pub mod edges;
 mod expressions;
+pub mod reference;
+pub mod seams;
 mod wide;
