@@ -135,12 +135,17 @@ pub(super) fn conditioning(report: &Conditioning, out: &mut dyn Write) -> anyhow
         }
     }
     rows.print(out, Format::Table, SHORT)?;
-    for row in report.widths.iter().filter(|row| row.method == Method::Hermite) {
-        if let Some(reason) = &row.refused {
-            let form = if row.form == Form::Power { "power" } else { "centred" };
-            let place =
-                format!("{form}, {} bits, n up to {}", row.output_bits, brief(row.greatest_n));
-            write_folded(out, &format!("refused: {place}: {reason}"))?;
+    for bits in OUTPUT_BITS {
+        for (form, name) in [(Form::Power, "power"), (Form::Centred, "centred")] {
+            let first = report.widths.iter().find_map(|row| {
+                let same = (row.method, row.output_bits, row.form) == (Method::Hermite, bits, form);
+                same.then_some(())?;
+                Some((row.greatest_n, row.refused.as_ref()?))
+            });
+            if let Some((n, reason)) = first {
+                let from = format!("refused: {name}, {bits} bits, from n = {}: ", brief(n));
+                write_folded(out, &format!("{from}{reason}"))?;
+            }
         }
     }
     Ok(())
@@ -257,23 +262,23 @@ pub(super) fn seams(report: &SeamReport, out: &mut dyn Write) -> anyhow::Result<
     )?;
     let falling = report.rows.iter().filter(|row| row.falls > 0).count();
     let falls: u64 = report.rows.iter().map(|row| row.falls).sum();
-    writeln!(out, "the output falls at        {falls} pairs, of {falling} exponents")?;
+    writeln!(out, "the output falls at          {falls} pairs, of {falling} exponents")?;
     if let Some(row) = worst(report, |row| row.deepest_fall_ulp) {
         let place = place(row, row.deepest_fall_x);
-        writeln!(out, "deepest fall               {} ulp {place}", row.deepest_fall_ulp)?;
+        writeln!(out, "deepest fall                 {} ulp {place}", row.deepest_fall_ulp)?;
     }
     if let Some(row) = worst(report, |row| row.hand_over_jump_ulp.unwrap_or(0).abs())
         && let Some(jump) = row.hand_over_jump_ulp
     {
         let place = place(row, row.hand_over_x);
-        writeln!(out, "largest jump at a hand-over {jump:+} ulp {place}")?;
+        writeln!(out, "largest jump at a hand-over  {jump:+} ulp {place}")?;
     }
     if let Some(row) = worst(report, |row| row.image_step) {
         let place = place(row, row.image_step_x);
-        writeln!(out, "largest step of an image   {} of 255 {place}", row.image_step)?;
+        writeln!(out, "largest step of an image     {} of 255 {place}", row.image_step)?;
     }
     let image: u64 = report.rows.iter().map(|row| row.image_falls).sum();
-    writeln!(out, "an image falls at          {image} pairs\n")?;
+    writeln!(out, "an image falls at            {image} pairs\n")?;
     let few = report.rows.len() <= MOST_ROWS;
     let shown = report.rows.iter().filter(|row| few || row.n.log2().fract() == 0.0);
     let mut rows = Rows::new(&[

@@ -21,6 +21,9 @@ const PNG_SCALE: f32 = 2.0;
 /// The least value that is drawn on a logarithmic axis.
 const LEAST_DRAWN: f64 = 1e-6;
 
+/// The greatest exponent of the plots of digits: more decades than these have no room for their names.
+const GREATEST_DRAWN: f64 = 1e9;
+
 /// Why a part was not written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -122,6 +125,15 @@ fn table<T: Serialize>(name: &'static str, rows: &[T]) -> Result<NamedTable, Sta
 fn against_n(title: String, y_axis: Axis, series: Vec<Series>) -> Chart {
     let mut chart = Chart::new(title, Axis::log("exponent n"), y_axis);
     chart.series = series.into_iter().filter(|series| !series.points.is_empty()).collect();
+    let exponents = || chart.series.iter().flat_map(|series| &series.points).map(|point| point.0);
+    let (least, greatest) =
+        (exponents().fold(f64::INFINITY, f64::min), exponents().fold(0.0, f64::max));
+    if least < greatest {
+        let dots = chart.series.iter().any(|series| series.mark == Mark::Points);
+        // Half a dot on the edge would be cut off.
+        let room = if dots { 1.1 } else { 1.0 };
+        chart.x_axis.range = Some((least / room, greatest * room));
+    }
     chart
 }
 
@@ -153,7 +165,8 @@ fn losses(report: &CoefficientLosses, method: Method, form: Set) -> Chart {
     let series = CoefficientWay::ALL.into_iter().enumerate().map(|(index, way)| {
         let of =
             report.rows.iter().filter(|row| (row.method, row.way, row.form) == (method, way, form));
-        let points = of.map(|row| (row.n, row.digits_lost)).collect();
+        let drawn = of.filter(|row| row.n <= GREATEST_DRAWN);
+        let points = drawn.map(|row| (row.n, row.digits_lost)).collect();
         Series::new(way_label(way), points, Mark::nth(index))
     });
     let names = match form {
@@ -256,7 +269,7 @@ impl Part for EdgeReport {
         };
         let mut series = vec![
             Series::new("proved bound", worst(|row| row.bound_ulp, &own), Mark::Dashed),
-            Series::new("as configured", worst(|row| row.method_ulp, &own), Mark::Solid),
+            Series::new("as configured", worst(|row| row.method_ulp, &own), Mark::Points),
         ];
         for variant in self.variants.iter().filter(|variant| variant.name.starts_with("rounding")) {
             let of = |row: &Edge| row.variant == variant.name;
@@ -264,7 +277,10 @@ impl Part for EdgeReport {
             series.push(Series::new(variant.name.clone(), points, Mark::Points));
         }
         let title = format!("Worst error at the edges of x, {}", self.configuration);
-        drawable(vec![("edges", against_n(title, Axis::linear("error, output ulp"), series))])
+        let points = series.iter().flat_map(|series| &series.points);
+        let highest = points.map(|point| point.1).fold(0.5, f64::max);
+        let y_axis = Axis::linear("error, output ulp").with_range(0.0, 1.1 * highest);
+        drawable(vec![("edges", against_n(title, y_axis, series))])
     }
 }
 

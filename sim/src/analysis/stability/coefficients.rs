@@ -1,6 +1,6 @@
 //! How many of the 16 digits of f64 each way of computing coefficients loses, for n from 1 to 10¹⁵.
 //!
-//! The exact coefficients are those of the conditions, in numbers of 640 bits; a test puts them back
+//! The exact coefficients are those of the conditions, in numbers of 384 bits; a test puts them back
 //! into the conditions. They share no code with `hw_model::fit`, which is one of the ways that are
 //! measured. A digit is lost where the relative error is ten times what one rounding costs, 2⁻⁵³.
 //!

@@ -14,7 +14,7 @@
 //! is there with the reason.
 
 use hw_model::config::{Config, Cut, Form, Tail};
-use hw_model::design::{Design, DesignError};
+use hw_model::design::Design;
 use hw_model::exponents::{Exponents, ExponentsError};
 use hw_model::fit::{FitError, Levels, Method, fit};
 use hw_model::format::{FormatError, QFormat};
@@ -30,6 +30,8 @@ pub const METHODS: [Method; 4] =
     [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic];
 /// The bits of the results.
 pub const OUTPUT_BITS: [u32; 4] = [8, 12, 16, 20];
+/// The error budget of a faithful result, in ulp: less than 1.
+const FAITHFUL_ULP: f64 = 0.999;
 /// Exponents in a decade.
 const STEPS_PER_DECADE: u32 = 8;
 /// Points of the epicentre.
@@ -209,7 +211,7 @@ fn widths(
         rounding: Rounding::NearestUp,
         quotient_bits_per_stage: 1,
         multiplier_operand_bits: None,
-        error_budget_ulp: 1.0_f64.next_down(),
+        error_budget_ulp: FAITHFUL_ULP,
         widths: Default::default(),
     };
     let mut row = Widths {
@@ -229,13 +231,9 @@ fn widths(
     };
     match Design::new(config) {
         Ok(design) => measure(&design, &mut row),
-        Err(refusal) => row.refused = Some(reason(&refusal)),
+        Err(refusal) => row.refused = Some(refusal.to_string()),
     }
     Ok(row)
-}
-
-fn reason(refusal: &DesignError) -> String {
-    refusal.to_string()
 }
 
 fn measure(design: &Design, row: &mut Widths) {

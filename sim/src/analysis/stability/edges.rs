@@ -1,8 +1,8 @@
 //! What the pipeline answers at the edges: of x, of the list of exponents, of the formats and of the ROM.
 //!
 //! **Variants.** The configuration as it is; with each other rounding mode; with a signed input, where its own
-//! has no negative x; with 1-bit and with 63-bit formats of input, output and both. Variants keep the first
-//! and the last exponent and the powers of two between. A mode that rounds one way needs a larger error
+//! has no negative x; with 1-bit and with 63-bit formats of input, output and both, and with the finest output
+//! that can be had. Variants keep the first and the last exponent and the powers of two between. A mode that rounds one way needs a larger error
 //! budget: it is doubled until the widths can be had, and said. What cannot be had is there with
 //! the reason.
 //!
@@ -179,7 +179,17 @@ fn variants(config: &Config) -> Vec<(String, Config)> {
         all.push((format!("output {format}"), Config { output, ..base.clone() }));
         all.push((format!("input and output {format}"), both));
     }
+    if let Some(output) = widest_output(&base) {
+        all.push((format!("output {output}, widest"), Config { output, ..base }));
+    }
     all
+}
+
+/// The finest output that can be had within the configuration's own budget, if that is not the finest of all.
+fn widest_output(base: &Config) -> Option<QFormat> {
+    let accepted = |&output: &QFormat| Design::new(Config { output, ..base.clone() }).is_ok();
+    let finest = (1..=62).rev().filter_map(|fraction| QFormat::unsigned(1, fraction).ok());
+    finest.into_iter().find(accepted).filter(|format| format.fraction_bits() < 62)
 }
 
 /// The first, the last, and the powers of two.

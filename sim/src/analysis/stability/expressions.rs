@@ -22,6 +22,7 @@ use super::wide::Real;
 #[serde(rename_all = "snake_case")]
 pub enum Way {
     /// The formulas as \[Rom\] prints them, and ln 2 as it prints it, 0.6931471.
+    #[serde(rename = "printed_ln2")]
     PrintedConstant,
     /// The formulas as \[Rom\] prints them, q = Q^(1/n).
     Printed,
@@ -42,7 +43,7 @@ impl Way {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Self::PrintedConstant => "printed_constant",
+            Self::PrintedConstant => "printed_ln2",
             Self::Printed => "printed",
             Self::Naive => "naive",
             Self::Stable => "stable",
@@ -120,11 +121,11 @@ fn of_power<R: Real>(a: R, b: R, c: R) -> Forms<R> {
     Forms { centred: vec![k1, k2, a.clone()], power: vec![a, b, c, R::of(0.0)] }
 }
 
-fn of_centred<R: Real>(k1: R, k2: R, k3: R) -> Forms<R> {
+/// k1, k2, k3 and d, which a condition may demand, and what follows from them for the power form.
+fn of_centred<R: Real>(k1: R, k2: R, k3: R, d: R) -> Forms<R> {
     let times = |factor: f64, value: &R| R::of(factor) * value.clone();
     let b = k2.clone() - times(3.0, &k3);
     let c = k1.clone() - times(2.0, &k2) + times(3.0, &k3);
-    let d = R::of(1.0) - k1.clone() + k2.clone() - k3.clone();
     Forms { power: vec![k3.clone(), b, c, d], centred: vec![k1, k2, k3] }
 }
 
@@ -163,12 +164,14 @@ impl<R: Real> Differences<R> {
 fn hermite<R: Real>(differences: &Differences<R>) -> Forms<R> {
     let Differences { p, d1, d2, d3 } = differences.clone();
     let k1 = -(d1 - p.clone() * d2.clone() + p.clone() * p.clone() * d3.clone());
-    of_centred(k1, d2 - R::of(2.0) * p * d3.clone(), -d3)
+    of_centred(k1, d2 - R::of(2.0) * p * d3.clone(), -d3, R::of(0.0))
 }
 
 fn quadratic<R: Real>(differences: &Differences<R>) -> Forms<R> {
     let Differences { p, d1, d2, .. } = differences.clone();
-    of_centred(-(d1 - p * d2.clone()), d2, R::of(0.0))
+    let k1 = -(d1 - p * d2.clone());
+    let d = R::of(1.0) - k1.clone() + d2.clone();
+    of_centred(k1, d2, R::of(0.0), d)
 }
 
 impl<R: Clone> Clone for Differences<R> {
