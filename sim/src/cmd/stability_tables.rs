@@ -19,7 +19,7 @@ const SHORT: usize = 3;
 
 /// A number in few digits, or a dash.
 fn short(value: Option<f64>) -> Cell {
-    Cell::from(value.map_or_else(|| "-".to_owned(), |value| brief(value)))
+    Cell::from(value.map_or_else(|| "-".to_owned(), brief))
 }
 
 fn brief(value: f64) -> String {

@@ -305,7 +305,7 @@ impl Part for SeamReport {
         ];
         let image = vec![curve("largest step", Mark::Solid, &|row| Some(row.image_step as f64))];
         let title = |what| format!("{what}, {}", self.configuration);
-        let ulp = Axis::linear("step between neighbouring x, ulp");
+        let ulp = Axis::linear("step to the next x, ulp");
         let steps = Axis::linear("step of an 8-bit intensity");
         drawable(vec![
             ("seams_steps", against_n(title("Steps of the output"), ulp, jumps)),

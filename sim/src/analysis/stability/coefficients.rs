@@ -13,7 +13,7 @@ use hw_model::fit::{Curve, Fit, FitError, Levels, Method, fit};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::expressions::{Forms, Way, forms};
+use super::expressions::{At, Forms, Way, forms};
 use super::wide::{Real, Wide};
 
 pub use super::expressions::Way as CoefficientWay;
@@ -126,16 +126,11 @@ pub struct CoefficientLosses {
 /// # Errors
 /// When a fit refuses an exponent, which it does not in this range.
 pub fn coefficient_losses(levels: Levels) -> Result<CoefficientLosses, FitError> {
-    let exponents = exponents();
-    let per_method = METHODS.map(|method| {
-        let losses: Result<Vec<Vec<Loss>>, FitError> =
-            exponents.par_iter().map(|&n| losses_at(method, n, levels)).collect();
-        losses.map(|losses| losses.concat())
-    });
-    let mut rows = Vec::new();
-    for losses in per_method {
-        rows.extend(losses?);
-    }
+    let losses: Result<Vec<Vec<Loss>>, FitError> =
+        exponents().par_iter().map(|&n| losses_at(n, levels)).collect();
+    let mut rows = losses?.concat();
+    // By method, and by exponent within it: the sort keeps the order of what is equal.
+    rows.sort_by_key(|row| METHODS.iter().position(|&method| method == row.method));
     Ok(CoefficientLosses {
         q: levels.q(),
         g: levels.g(),
@@ -163,32 +158,43 @@ fn exponents() -> Vec<f64> {
     all
 }
 
-fn losses_at(method: Method, n: f64, levels: Levels) -> Result<Vec<Loss>, FitError> {
-    let Some(exact) = forms::<Wide>(method, Way::Naive, n, levels) else { return Ok(Vec::new()) };
+fn losses_at(n: f64, levels: Levels) -> Result<Vec<Loss>, FitError> {
+    let (plain, wide) = (At::<f64>::new(n, levels), At::<Wide>::new(n, levels));
     let printed = levels.q() == 0.5;
     let mut losses = Vec::new();
-    for way in Way::ALL {
-        let computed = match way {
-            Way::Fit => Some(fitted(&fit(method, n, levels)?)),
-            Way::Printed | Way::PrintedConstant if !printed => None,
-            _ => forms::<f64>(method, way, n, levels),
-        };
-        // What [Rom] prints for three_point has values of its own.
-        let own = match (method, way) {
-            (Method::ThreePoint, Way::Printed) => forms::<Wide>(method, way, n, levels),
-            _ => None,
-        };
-        let exact = own.as_ref().unwrap_or(&exact);
-        let Some(computed) = computed else { continue };
-        for (form, computed, exact) in [
-            (Set::Power, computed.power, &exact.power),
-            (Set::Centred, computed.centred, &exact.centred),
-        ] {
-            let Some((digits_lost, index, digits_lost_of_greatest)) = loss(&computed, exact) else {
-                continue;
+    for method in METHODS {
+        let Some(exact) = forms(method, Way::Naive, &wide) else { continue };
+        for way in Way::ALL {
+            let computed = match way {
+                Way::Fit => Some(fitted(&fit(method, n, levels)?)),
+                Way::Printed | Way::PrintedConstant if !printed => None,
+                _ => forms(method, way, &plain),
             };
-            let worst = form.names(method)[index];
-            losses.push(Loss { method, way, form, n, digits_lost, worst, digits_lost_of_greatest });
+            let Some(computed) = computed else { continue };
+            // What [Rom] prints for three_point has values of its own.
+            let own = match (method, way) {
+                (Method::ThreePoint, Way::Printed) => forms(method, way, &wide),
+                _ => None,
+            };
+            let exact = own.as_ref().unwrap_or(&exact);
+            for (form, computed, exact) in [
+                (Set::Power, computed.power, &exact.power),
+                (Set::Centred, computed.centred, &exact.centred),
+            ] {
+                if let Some((digits_lost, index, digits_lost_of_greatest)) = loss(&computed, exact)
+                {
+                    let worst = form.names(method)[index];
+                    losses.push(Loss {
+                        method,
+                        way,
+                        form,
+                        n,
+                        digits_lost,
+                        worst,
+                        digits_lost_of_greatest,
+                    });
+                }
+            }
         }
     }
     Ok(losses)
@@ -302,11 +308,11 @@ mod tests {
         let levels = Levels::default();
         for n in [1.0 + 1e-9, 1.1, 2.5, 3.0, 64.0, 1000.3, 1e9, 1e15] {
             let (n_wide, one) = (wide(n), wide(1.0));
-            let q = Wide::root_of(levels.q(), &n_wide);
-            let l = Wide::root_of(levels.g(), &n_wide);
-            let slope = n_wide * wide(levels.q()) / q.clone();
+            let root = |level| Wide::root_of(level, &wide(level).ln(), &n_wide);
+            let (q, l) = (root(levels.q()), root(levels.g()));
+            let slope = n_wide.clone() * wide(levels.q()) / q.clone();
             for method in METHODS {
-                let exact = forms::<Wide>(method, Way::Naive, n, levels).unwrap();
+                let exact = forms(method, Way::Naive, &At::<Wide>::new(n, levels)).unwrap();
                 let place = format!("{method}, n = {n}");
                 if method == Method::Rational {
                     let [a, b]: [Wide; 2] = exact.power.try_into().unwrap();
@@ -358,8 +364,10 @@ mod tests {
         const MORE: usize = super::super::wide::PRECISION + 256;
         for n in [1.0_f64.next_up(), 2.0_f64.next_up(), 3.0_f64.next_down(), 1e9, 1e15] {
             for method in METHODS {
-                let exact = forms::<Wide>(method, Way::Naive, n, Levels::default()).unwrap();
-                let finer = forms::<Wide<MORE>>(method, Way::Naive, n, Levels::default()).unwrap();
+                let exact =
+                    forms(method, Way::Naive, &At::<Wide>::new(n, Levels::default())).unwrap();
+                let finer = forms(method, Way::Naive, &At::<Wide<MORE>>::new(n, Levels::default()))
+                    .unwrap();
                 for (exact, finer) in exact
                     .power
                     .iter()
@@ -379,8 +387,8 @@ mod tests {
     fn what_is_printed_for_hermite_and_rational_solves_the_system() {
         let levels = Levels::default();
         let differ = |method, n: f64| {
-            let exact = forms::<Wide>(method, Way::Naive, n, levels).unwrap();
-            let printed = forms::<Wide>(method, Way::Printed, n, levels).unwrap();
+            let exact = forms(method, Way::Naive, &At::<Wide>::new(n, levels)).unwrap();
+            let printed = forms(method, Way::Printed, &At::<Wide>::new(n, levels)).unwrap();
             let off = |(printed, exact): (&Wide, &Wide)| {
                 let size = exact.to_f64().abs() + 1.0;
                 (printed.clone() - exact.clone()).to_f64().abs() / size

@@ -17,6 +17,13 @@ use hw_model::fit::{Levels, Method};
 
 use super::wide::Real;
 
+/// ln 2 as \[Rom\] has it.
+#[expect(
+    clippy::approx_constant,
+    reason = "what the digits that are left out cost is measured here"
+)]
+const PRINTED_LN_2: f64 = 0.693_147_1;
+
 /// How the coefficients are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -61,26 +68,61 @@ pub(super) struct Forms<R> {
     pub centred: Vec<R>,
 }
 
+/// An exponent and where x^n crosses the levels, computed once for every method.
+pub(super) struct At<R> {
+    n: R,
+    level: R,
+    low: R,
+    /// r = q = Q^(1/n).
+    q: R,
+    /// l = G^(1/n).
+    l: R,
+    log_level: R,
+    log_low: R,
+}
+
+impl<R: Real> At<R> {
+    pub(super) fn new(n: f64, levels: Levels) -> Self {
+        let (n, level, low) = (R::of(n), R::of(levels.q()), R::of(levels.g()));
+        let (log_level, log_low) = (level.clone().ln(), low.clone().ln());
+        let q = R::root_of(levels.q(), &log_level, &n);
+        let l = R::root_of(levels.g(), &log_low, &n);
+        Self { n, level, low, q, l, log_level, log_low }
+    }
+
+    /// 1 − x where x^n is the level of this logarithm, with or without cancellation.
+    fn complement(&self, way: Way, x: &R, log: &R) -> R {
+        match way {
+            Way::Stable => -(log.clone() / self.n.clone()).exp_m1(),
+            _ => R::of(1.0) - x.clone(),
+        }
+    }
+
+    /// p = 1 − q.
+    fn p(&self, way: Way) -> R {
+        self.complement(way, &self.q, &self.log_level)
+    }
+}
+
 /// The coefficients of a method in one way; none where the way does not have them.
-pub(super) fn forms<R: Real>(method: Method, way: Way, n: f64, levels: Levels) -> Option<Forms<R>> {
-    let n = R::of(n);
+pub(super) fn forms<R: Real>(method: Method, way: Way, at: &At<R>) -> Option<Forms<R>> {
+    let n = || at.n.clone();
     match (method, way) {
         (_, Way::Fit) => None,
         (Method::Hermite, Way::PrintedConstant) => {
-            Some(printed_hermite(&n, &(R::of(-0.693_147_1) / n.clone()).exp()))
+            Some(printed_hermite(&at.n, &(R::of(-PRINTED_LN_2) / n()).exp()))
         }
-        (Method::Hermite, Way::Printed) => Some(printed_hermite(&n, &R::root_of(levels.q(), &n))),
-        (Method::ThreePoint, Way::Printed) => Some(printed_three_point(&n, levels)),
-        (Method::Rational, Way::Printed) => Some(ratio(
-            R::of(2.0) * n.clone() * R::root_of(levels.q(), &n),
-            R::of(2.0) * n - R::of(2.0),
-        )),
+        (Method::Hermite, Way::Printed) => Some(printed_hermite(&at.n, &at.q)),
+        (Method::ThreePoint, Way::Printed) => Some(printed_three_point(at)),
+        (Method::Rational, Way::Printed) => {
+            Some(ratio(R::of(2.0) * n() * at.q.clone(), R::of(2.0) * n() - R::of(2.0)))
+        }
         (_, Way::Printed | Way::PrintedConstant) => None,
-        (Method::Hermite, _) => Some(hermite(&Differences::new(&n, way, levels.q()))),
-        (Method::Quadratic, _) => Some(quadratic(&Differences::new(&n, way, levels.q()))),
-        (Method::ThreePoint, _) => Some(three_point(&n, way, levels)),
-        (Method::Tangent, _) => Some(tangent(&n, way, levels.q())),
-        (Method::Rational, _) => Some(rational(&n, way, levels.q())),
+        (Method::Hermite, _) => Some(hermite(&Differences::new(at, way))),
+        (Method::Quadratic, _) => Some(quadratic(&Differences::new(at, way))),
+        (Method::ThreePoint, _) => Some(three_point(at, way)),
+        (Method::Tangent, _) => Some(tangent(at, way)),
+        (Method::Rational, _) => Some(rational(at, way)),
         (Method::Composite | Method::Schlick, _) => None,
     }
 }
@@ -96,10 +138,10 @@ fn printed_hermite<R: Real>(n: &R, q: &R) -> Forms<R> {
     of_power(a, b, c)
 }
 
-fn printed_three_point<R: Real>(n: &R, levels: Levels) -> Forms<R> {
+fn printed_three_point<R: Real>(at: &At<R>) -> Forms<R> {
     let of = R::of;
-    let (level, low) = (|| of(levels.q()), || of(levels.g()));
-    let (r, l) = (R::root_of(levels.q(), n), R::root_of(levels.g(), n));
+    let (level, low) = (|| at.level.clone(), || at.low.clone());
+    let (r, l) = (at.q.clone(), at.l.clone());
     let (r2, l2) = (r.clone() * r.clone(), l.clone() * l.clone());
     let (r3, l3) = (r2.clone() * r.clone(), l2.clone() * l);
     let below = l3.clone() * (of(1.0) - r2.clone()) + l2.clone() * (r3.clone() - of(1.0))
@@ -133,14 +175,6 @@ fn ratio<R: Real>(a: R, b: R) -> Forms<R> {
     Forms { power: vec![a.clone(), b.clone()], centred: vec![a - b] }
 }
 
-/// 1 − level^(1/n), with or without cancellation.
-fn complement<R: Real>(n: &R, way: Way, level: f64) -> R {
-    match way {
-        Way::Stable => -(R::of(level).ln() / n.clone()).exp_m1(),
-        _ => R::of(1.0) - R::root_of(level, n),
-    }
-}
-
 /// D1 = (Q−1)/p, D2 = (−nQ/q − D1)/p, D3 = Q(n−1)/q² − D2.
 struct Differences<R> {
     p: R,
@@ -150,13 +184,11 @@ struct Differences<R> {
 }
 
 impl<R: Real> Differences<R> {
-    fn new(n: &R, way: Way, level: f64) -> Self {
-        let p = complement(n, way, level);
-        let q = R::root_of(level, n);
-        let level = R::of(level);
-        let d1 = (level.clone() - R::of(1.0)) / p.clone();
-        let d2 = (-(n.clone() * level.clone() / q.clone()) - d1.clone()) / p.clone();
-        let d3 = level * (n.clone() - R::of(1.0)) / (q.clone() * q) - d2.clone();
+    fn new(at: &At<R>, way: Way) -> Self {
+        let (p, q, n, level) = (at.p(way), || at.q.clone(), || at.n.clone(), || at.level.clone());
+        let d1 = (level() - R::of(1.0)) / p.clone();
+        let d2 = (-(n() * level() / q()) - d1.clone()) / p.clone();
+        let d3 = level() * (n() - R::of(1.0)) / (q() * q()) - d2.clone();
         Self { p, d1, d2, d3 }
     }
 }
@@ -181,40 +213,36 @@ impl<R: Clone> Clone for Differences<R> {
 }
 
 /// e1 = (Q/r − 1)/(r − 1), e2 = (G/l − 1)/(l − 1), a = (e1 − e2)/(r − l), b = e1 − a(1 + r).
-fn three_point<R: Real>(n: &R, way: Way, levels: Levels) -> Forms<R> {
-    let (r, l) = (R::root_of(levels.q(), n), R::root_of(levels.g(), n));
+fn three_point<R: Real>(at: &At<R>, way: Way) -> Forms<R> {
+    let (r, l, n) = (|| at.q.clone(), || at.l.clone(), || at.n.clone());
     // level/x − 1 = level^(1 − 1/n) − 1.
-    let excess = |level: f64, x: &R| match way {
-        Way::Stable => (R::of(level).ln() * (n.clone() - R::of(1.0)) / n.clone()).exp_m1(),
-        _ => R::of(level) / x.clone() - R::of(1.0),
+    let excess = |level: &R, x: &R, log: &R| match way {
+        Way::Stable => (log.clone() * (n() - R::of(1.0)) / n()).exp_m1(),
+        _ => level.clone() / x.clone() - R::of(1.0),
     };
-    let e1 = -(excess(levels.q(), &r) / complement(n, way, levels.q()));
-    let e2 = -(excess(levels.g(), &l) / complement(n, way, levels.g()));
+    let quotient =
+        |level: &R, x: &R, log: &R| -(excess(level, x, log) / at.complement(way, x, log));
+    let e1 = quotient(&at.level, &at.q, &at.log_level);
+    let e2 = quotient(&at.low, &at.l, &at.log_low);
     let between = match way {
-        Way::Stable => {
-            let logs = R::of(levels.q()).ln() - R::of(levels.g()).ln();
-            l * (logs / n.clone()).exp_m1()
-        }
-        _ => r.clone() - l,
+        Way::Stable => l() * ((at.log_level.clone() - at.log_low.clone()) / n()).exp_m1(),
+        _ => r() - l(),
     };
     let a = (e1.clone() - e2) / between;
-    let b = e1 - a.clone() * (R::of(1.0) + r);
+    let b = e1 - a.clone() * (R::of(1.0) + r());
     let c = R::of(1.0) - a.clone() - b.clone();
     of_power(a, b, c)
 }
 
 /// k = √(Q/r), u = (1 − k)/(1 − r), v = (r − k)/(1 − r), f = x(ux − v)².
-fn tangent<R: Real>(n: &R, way: Way, level: f64) -> Forms<R> {
-    let p = complement(n, way, level);
-    let r = R::root_of(level, n);
-    let k = (R::of(level) / r.clone()).sqrt();
+fn tangent<R: Real>(at: &At<R>, way: Way) -> Forms<R> {
+    let (p, r, n) = (at.p(way), at.q.clone(), || at.n.clone());
+    let k = (at.level.clone() / r.clone()).sqrt();
     let (u, v) = match way {
         Way::Stable => {
-            let twice = R::of(2.0) * n.clone();
-            let log = R::of(level).ln();
-            let u = -(log.clone() * (n.clone() - R::of(1.0)) / twice.clone()).exp_m1();
-            let v = k * (log * (R::of(3.0) - n.clone()) / twice).exp_m1();
-            (u, v)
+            let per_n = at.log_level.clone() / (R::of(2.0) * n());
+            let u = -(per_n.clone() * (n() - R::of(1.0))).exp_m1();
+            (u, k * (per_n * (R::of(3.0) - n())).exp_m1())
         }
         _ => (R::of(1.0) - k.clone(), r - k),
     };
@@ -224,17 +252,12 @@ fn tangent<R: Real>(n: &R, way: Way, level: f64) -> Forms<R> {
 }
 
 /// A = nq/Q, B = (n − 1)/Q; A − B = (1 − n·p)/Q.
-fn rational<R: Real>(n: &R, way: Way, level: f64) -> Forms<R> {
-    let p = complement(n, way, level);
-    let q = match way {
-        Way::Stable => R::root_of(level, n),
-        _ => R::of(1.0) - p.clone(),
-    };
-    let level = R::of(level);
-    let a = n.clone() * q / level.clone();
-    let b = (n.clone() - R::of(1.0)) / level.clone();
+fn rational<R: Real>(at: &At<R>, way: Way) -> Forms<R> {
+    let (n, level) = (|| at.n.clone(), || at.level.clone());
+    let a = n() * at.q.clone() / level();
+    let b = (n() - R::of(1.0)) / level();
     let difference = match way {
-        Way::Stable => (R::of(1.0) - n.clone() * p) / level,
+        Way::Stable => (R::of(1.0) - n() * at.p(way)) / level(),
         _ => a.clone() - b.clone(),
     };
     Forms { power: vec![a, b], centred: vec![difference] }

@@ -245,7 +245,7 @@ fn structured() -> Vec<Sample> {
     for m in [1_u32, 2, 3, 4, 5, 7, 8, 16, 31, 64, 100, 128, 255, 256, 1024, 4096, 16_384, 65_536] {
         for fraction in [1, 8, 15, 23, 26, 52, 53, 61] {
             let one = 1_u64 << fraction;
-            let q = (f64::from(m).recip() * -1.0).exp2();
+            let q = (-f64::from(m).recip()).exp2();
             let at_q = (q * one as f64) as u64;
             let ks =
                 [0, 1, 2, one / 2, one / 3, at_q, at_q + 1, one - one / 16, one - 2, one - 1, one];
@@ -278,13 +278,13 @@ fn random(seed: u64, count: u64) -> impl Iterator<Item = Sample> {
         let long = root == 1 && bits(2) == 0;
         let fraction = match long {
             true => 61,
-            false => 1 + (bits(16) * u64::from(widest(root)) >> 16) as u32,
+            false => 1 + ((bits(16) * u64::from(widest(root))) >> 16) as u32,
         };
         let one = 1_u64 << fraction;
         let near = bits(1) == 1 || long;
-        let reach = if long { 53 } else { (bits(16) * u64::from(fraction + 1) >> 16) as u32 };
+        let reach = if long { 53 } else { ((bits(16) * u64::from(fraction + 1)) >> 16) as u32 };
         let k = if near { one - bits(reach) } else { bits(fraction) };
-        let length = 1 + (bits(16) * 12 >> 16) as u32;
+        let length = 1 + ((bits(16) * 12) >> 16) as u32;
         let m = (1 << (length - 1)) | bits(length - 1) as u32;
         Sample { k, fraction, root, m: if root == 1 { m } else { root * m + 1 } }
     })

@@ -281,7 +281,7 @@ impl Scan {
     /// A step of d ulp is one of at most d·255/2^f + 1 in 8 bits: most blocks need no look.
     fn see_image(&mut self, ys: &[i64], first: i64, fraction: u32, differences: &Differences) {
         let largest = i128::from(differences.greatest.max(-differences.least));
-        let most = (largest * WHITE >> fraction) as i64 + 1;
+        let most = ((largest * WHITE) >> fraction) as i64 + 1;
         let falls = differences.falls > 0;
         if !falls && most <= self.image.map_or(0, |peak| peak.size) {
             return;

@@ -27,8 +27,8 @@ pub(super) trait Real:
     fn exp_m1(self) -> Self;
     fn ln(self) -> Self;
     fn sqrt(self) -> Self;
-    /// level^(1/n), as a program would ask for it.
-    fn root_of(level: f64, n: &Self) -> Self;
+    /// level^(1/n), as a program would ask for it; `log` is ln level.
+    fn root_of(level: f64, log: &Self, n: &Self) -> Self;
 }
 
 /// Correctly rounded functions: what is lost is lost by the expression.
@@ -48,7 +48,7 @@ impl Real for f64 {
     fn sqrt(self) -> Self {
         self.sqrt()
     }
-    fn root_of(level: f64, n: &Self) -> Self {
+    fn root_of(level: f64, _log: &Self, n: &Self) -> Self {
         core_math::pow(level, 1.0 / n)
     }
 }
@@ -88,8 +88,8 @@ impl<const BITS: usize> Real for Wide<BITS> {
     fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
-    fn root_of(level: f64, n: &Self) -> Self {
-        (Self::of(level).ln() / n.clone()).exp()
+    fn root_of(_level: f64, log: &Self, n: &Self) -> Self {
+        (log.clone() / n.clone()).exp()
     }
 }
 
