@@ -286,20 +286,21 @@ fn answers(design: &Design, variant: &str, addresses: &[u32]) -> Vec<Edge> {
     let mut rows = Vec::new();
     for &address in addresses.iter().chain(&outside) {
         for (case, x) in cases(design, address) {
-            rows.push(answer(design, variant, address, case, x));
+            let got = design.datapath().evaluate(address, x);
+            rows.push(answer(design, variant, (case, x), &got));
         }
     }
     rows
 }
 
-fn answer(design: &Design, variant: &str, address: u32, case: &'static str, x: i64) -> Edge {
-    let config = design.config();
-    let got = design.datapath().evaluate(address, x);
+/// What is to be said of `got`, the answer to an x.
+fn answer(design: &Design, variant: &str, (case, x): (&'static str, i64), got: &Signals) -> Edge {
+    let (config, address) = (design.config(), got.address);
     let ulp = config.output.ulp();
     let intensity = real(got.intensity, config.output);
     let clamped = x.clamp(0, config.input.one());
     let n = design.rom().exponents().as_slice().get(address as usize).copied();
-    let against = n.map(|n| against_power(n, clamped, &got, config));
+    let against = n.map(|n| against_power(n, clamped, got, config));
     let (wanted_flags, wanted_zero) = flags(design, address, x);
     let flags = got.status.without(Status::CLAMPED);
     let mut holds = flags == wanted_flags
@@ -516,7 +517,37 @@ mod tests {
         }
     }
 
-    /// The verdict can be other: with a wrong ROM word an answer leaves its bound.
+    /// An answer that is off by more than its bound, or has a flag too many or too few, is told.
+    #[test]
+    fn a_wrong_answer_does_not_hold() {
+        for rest in CONFIGURATIONS {
+            let design = design(rest);
+            let one = design.config().input.one();
+            let mut wrong = 0;
+            for (case, x) in cases(&design, 4) {
+                let right = design.datapath().evaluate(4, x);
+                assert!(answer(&design, "s", (case, x), &right).holds, "{rest}: {case}");
+                let further = if right.intensity > 3 { -3 } else { 3 };
+                for damaged in [
+                    Signals { intensity: right.intensity + further, ..right },
+                    Signals { intensity: -1, ..right },
+                    Signals { status: right.status.with(Status::NO_WORD, true), ..right },
+                    Signals {
+                        status: right.status.with(Status::ABOVE_ONE, true),
+                        intensity: if x > one { -1 } else { right.intensity },
+                        ..right
+                    },
+                ] {
+                    let told = answer(&design, "s", (case, x), &damaged);
+                    assert!(!told.holds, "{rest}: {case}: {told:?}");
+                    wrong += 1;
+                }
+            }
+            assert!(wrong >= 4 * 8, "{wrong}");
+        }
+    }
+
+    /// A ROM word at an edge of its format leaves the proved ranges; a format with a bit less is refused.
     #[test]
     fn a_coefficient_at_its_edge_is_seen_in_a_register() {
         let design = design(CONFIGURATIONS[0]);
