@@ -41,7 +41,8 @@ pub enum Cut {
     Epicentre,
     /// At the polynomial's minimum below q, so that a zero tail makes the least jump and the
     /// polynomial never rises again (at 0 where it has none); or above it, where the polynomial has
-    /// fallen to half an output ulp, which a zero shows as well; or where u would reach 2.
+    /// fallen to half an output ulp, which a zero shows as well; or, with
+    /// `multiplier_operand_bits`, where u would reach 2.
     Minimum,
 }
 

@@ -46,7 +46,9 @@ impl RealRow {
         let cut_s = match (config.cut, &polynomial) {
             (Cut::Minimum, Some(cubic)) => {
                 let lowest = lowest_s(cubic, epicentre, config.output.ulp() / 2.0);
-                lowest.min(GREATEST_U * (-f64::from(shift)).exp2()).max(epicentre)
+                let narrow = config.multiplier_operand_bits.is_some();
+                let most = if narrow { GREATEST_U * (-f64::from(shift)).exp2() } else { 1.0 };
+                lowest.min(most).max(epicentre)
             }
             _ => epicentre,
         };
@@ -73,8 +75,10 @@ impl RealRow {
     }
 }
 
-/// u = s·2^e stays below 2 with room for its rounding, so that it has one integer bit. On the
-/// epicentre it is below 1.36 anyway; further down only `hermite` at n = 4 would go beyond (2.75).
+/// Where the multipliers' operands are limited, u = s·2^e stays below 2 with room for its rounding, so that
+/// it has one integer bit. On the epicentre it is below 1.36 anyway; further down `hermite` goes beyond at n = 4
+/// only (2.75). `three_point` and `tangent` do at every fifth exponent, and being cut there they would
+/// jump, so without such a limit the bit is spent.
 const GREATEST_U: f64 = 2.0 - 1.0 / 128.0;
 
 /// Where the polynomial is of no more use below the epicentre: s of its minimum (1 where it falls all

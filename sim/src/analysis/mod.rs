@@ -1,6 +1,8 @@
-//! What can be said of a method and of a configuration: approximation, hardware errors, the claims of \[Rom\].
+//! What can be said of a method and of a configuration: approximation, hardware errors, the claims of
+//! \[Rom\], stiff and extreme cases.
 
 pub mod approximation;
 pub mod claims;
 pub mod error_report;
+pub mod stability;
 pub mod sweep;

@@ -21,6 +21,29 @@ pub(super) struct Configuration {
     config: Option<PathBuf>,
 }
 
+/// Which configuration, for a command that may do without one.
+#[derive(Args)]
+#[group(multiple = false)]
+pub(super) struct MaybeConfiguration {
+    /// A preset; `blysk presets` lists them.
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+}
+
+impl MaybeConfiguration {
+    /// The hardware of the configuration, where there is one.
+    pub(super) fn design(&self) -> anyhow::Result<Option<Design>> {
+        let Self { preset, config } = self;
+        if preset.is_none() && config.is_none() {
+            return Ok(None);
+        }
+        Configuration { preset: preset.clone(), config: config.clone() }.design().map(Some)
+    }
+}
+
 impl Configuration {
     /// The hardware of the configuration.
     pub(super) fn design(&self) -> anyhow::Result<Design> {

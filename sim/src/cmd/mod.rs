@@ -13,6 +13,8 @@ mod report;
 mod rom;
 mod rtl;
 mod simulate;
+mod stability;
+mod stability_tables;
 mod table;
 mod vectors;
 
@@ -42,6 +44,7 @@ enum Command {
     Coefficients(coefficients::Args),
     Rom(rom::Args),
     Document(document::Args),
+    Stability(stability::Args),
     Presets(presets::Args),
 }
 
@@ -108,6 +111,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
         Command::Document(args) => document::run(&args, out),
+        Command::Stability(args) => stability::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

@@ -139,10 +139,10 @@ fn curves_exponent(asked: Option<f64>, design: &Design) -> anyhow::Result<f64> {
 }
 
 /// A progress bar on standard error, where that is a terminal.
-struct Bar(ProgressBar);
+pub(super) struct Bar(pub(super) ProgressBar);
 
 impl Bar {
-    fn new(samples: Option<u64>) -> Self {
+    pub(super) fn new(samples: Option<u64>) -> Self {
         match samples {
             Some(samples) if std::io::stderr().is_terminal() => {
                 let bar = ProgressBar::new(samples);

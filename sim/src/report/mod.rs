@@ -3,3 +3,4 @@
 pub mod claims;
 pub mod figures;
 pub mod files;
+pub mod stability;

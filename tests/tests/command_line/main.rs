@@ -11,4 +11,5 @@ mod presets;
 mod report;
 mod report_against_brute_force;
 mod rom;
+mod stability;
 mod vectors;

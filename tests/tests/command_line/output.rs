@@ -38,18 +38,32 @@ fn tables_fit_a_terminal() {
     for which in &small {
         commands.push(format!("report {which} --bound 1 --out r"));
         commands.push(format!("report {which} --bound 1"));
+        commands.push(format!("stability {which} --samples 50 --out s"));
     }
     for method in
         ["hermite", "three_point", "tangent", "quadratic", "rational", "composite", "schlick"]
     {
         commands.push(format!("coefficients --method {method} --exponents 1,2.5,114,1e6,1e15"));
     }
+    for preset in &presets {
+        commands.push(format!("stability {preset} --part edges"));
+    }
+    commands.push("stability --part seams --preset compact --exponents 1,100".to_owned());
     for command in &commands {
         narrow(command, &bench.good(command));
     }
-    for command in
-        ["", "report", "vectors", "check", "simulate", "coefficients", "rom", "document", "presets"]
-    {
+    for command in [
+        "",
+        "report",
+        "vectors",
+        "check",
+        "simulate",
+        "coefficients",
+        "rom",
+        "document",
+        "stability",
+        "presets",
+    ] {
         let command = format!("{command} --help");
         narrow(&command, &bench.good(&command));
     }
@@ -103,6 +117,8 @@ fn a_closed_pipe_is_no_error() {
         "report --config small.json --out report",
         "report --config small.json --format csv",
         "report --config small.json --format json",
+        "stability --config small.json --samples 9 --out stability",
+        "stability --config small.json --part seams --format csv",
         "simulate --config small.json --stimulus in.csv --out run",
         "vectors --config small.json --count 9 --out vectors",
     ];
@@ -115,7 +131,13 @@ fn a_closed_pipe_is_no_error() {
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), stderr.as_str()), (Some(0), ""), "{command}");
     }
-    for file in ["rom/rom.csv", "report/error_vs_n.csv", "run/trace.csv", "vectors/manifest.json"] {
+    for file in [
+        "rom/rom.csv",
+        "report/error_vs_n.csv",
+        "run/trace.csv",
+        "vectors/manifest.json",
+        "stability/seams.json",
+    ] {
         assert!(!bench.read(file).is_empty(), "{file}");
     }
 }
