@@ -39,8 +39,8 @@ const SMALL: [(&str, &str); 2] = [
 ];
 
 /// Its c3 is 0 for every n, so it has a multiplier less. Only its netlist is looked at.
-const TWO_MULTIPLIERS: &str =
-    r#"{"name": "quadratic", "method": "quadratic", "exponents": "1..=16"}"#;
+const TWO_MULTIPLIERS: &str = r#"{"name": "quadratic", "method": "quadratic", "exponents": "1..=16",
+    "input": "UQ1.15", "output": "UQ1.8"}"#;
 
 /// What was compared.
 #[derive(Clone, Copy, Default)]
