@@ -9,6 +9,7 @@ has no bind. Exit status 0: everything is proved, and every planted bug is found
 
 import argparse
 import csv
+import io
 import os
 import re
 import shlex
@@ -22,7 +23,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / "target/venv/bin"
 PROPERTIES = ROOT / "hw-model/rtl/formal"
-PRESETS = ["paper", "blooming", "tangent", "compact", "schlick"]
 RTL = [
     "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
     "blysk_tail_digits", "blysk_tail", "blysk_clamp", "blysk_rom", "blysk",
@@ -266,6 +266,13 @@ class Job:
         return "FAIL" if (self.place / "cone").read_text().strip() else "PASS"
 
 
+def preset_names(blysk):
+    """From the command itself, so that no preset is left out."""
+    command = [*shlex.split(blysk), "presets", "--format", "csv"]
+    listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    return [row["preset"] for row in csv.DictReader(io.StringIO(listed))]
+
+
 def verdict(result, bug, limit):
     """The result in words, and whether it is what it has to be."""
     if result == "TIMEOUT":
@@ -292,14 +299,17 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
     parser.add_argument("--out", type=Path, help="where formal.csv goes")
-    parser.add_argument("--preset", action="append", choices=PRESETS)
+    parser.add_argument("--preset", action="append", help="one that `blysk presets` lists; may be repeated")
     parser.add_argument("--property", action="append", choices=[prop.name for prop in ALL])
     parser.add_argument("--limit", type=int, default=300, help="seconds for each proof")
     args = parser.parse_args()
+    presets = preset_names(args.blysk)
+    if unknown := set(args.preset or []) - set(presets):
+        parser.error(f"not a preset: {', '.join(sorted(unknown))}")
     prepare_tools()
     rows, good = [], True
     print(f"{'preset':10}{'property':22}{'planted bug':26}{'result':30}{'seconds':>8}")
-    for preset in args.preset or PRESETS:
+    for preset in args.preset or presets:
         rtl = ROOT / "target/formal" / preset / "rtl"
         command = [*shlex.split(args.blysk), "rtl", "--preset", preset, "--count", "1", "--out", str(rtl)]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)

@@ -28,10 +28,8 @@ COMMITTED = ROOT / "docs/synthesis.csv"
 DOCUMENT = ROOT / "docs/SYNTHESIS.md"
 MARKERS = "<!-- table: made by `make synth` -->", "<!-- end of table -->"
 
-CONFIGURATIONS = {
-    **{name: ["--preset", name] for name in ["paper", "blooming", "tangent", "compact", "schlick"]},
-    "compact_12_bit": ["--config", "docs/examples/compact_12_bit.json"],
-}
+# Beside the presets.
+EXAMPLES = {"compact_12_bit": ["--config", "docs/examples/compact_12_bit.json"]}
 SEEDS = [1, 2, 3]
 
 # What each family's cells are counted as, what the device has, and the commands. {top} and {seed} are
@@ -66,10 +64,18 @@ COLUMNS = ["configuration", "device", "latency", *COUNTS, "wrapper_luts", "wrapp
            "f_max_mhz", "f_max_least", "f_max_greatest", "fits", "tools", "inputs"]
 
 
-def emit(blysk, name):
+def configurations(blysk):
+    """Each with the option that chooses it; the presets from the command itself, so that none is left out."""
+    command = [*shlex.split(blysk), "presets", "--format", "csv"]
+    listed = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    presets = [row["preset"] for row in csv.DictReader(io.StringIO(listed))]
+    return {**{name: ["--preset", name] for name in presets}, **EXAMPLES}
+
+
+def emit(blysk, name, option):
     """Writes the RTL of a configuration; gives its place and its sources."""
     place = WORK / name / "rtl"
-    command = [*shlex.split(blysk), "rtl", *CONFIGURATIONS[name], "--count", "1", "--out", str(place)]
+    command = [*shlex.split(blysk), "rtl", *option, "--count", "1", "--out", str(place)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, cwd=ROOT)
     sources = re.search(r"^RTL\s*= (.*)$", (place / "Makefile").read_text(), re.M)[1].split()
     return place, sources
@@ -193,8 +199,8 @@ def check(blysk):
     if document(rows) != DOCUMENT.read_text():
         wrong.append("its table is not that of docs/synthesis.csv")
     known = {(r["configuration"], r["device"]): r["inputs"] for r in rows}
-    for name in CONFIGURATIONS:
-        place, sources = emit(blysk, name)
+    for name, option in configurations(blysk).items():
+        place, sources = emit(blysk, name, option)
         stale = [d for d in DEVICES if known.pop((name, d), None) != inputs(place, sources, d)]
         if stale:
             wrong.append(f"{name} has changed since ({', '.join(stale)})")
@@ -215,8 +221,8 @@ def main():
         return check(args.blysk)
     os.environ["PATH"] = f"{VENV}:{os.environ['PATH']}"
     rows, wrong = [], []
-    for name in CONFIGURATIONS:
-        rtl, sources = emit(args.blysk, name)
+    for name, option in configurations(args.blysk).items():
+        rtl, sources = emit(args.blysk, name, option)
         for device in DEVICES:
             r = row(name, device, rtl, sources)
             rows.append(r)

@@ -6,7 +6,8 @@
 //   3. out_valid_o depends on registers only, never on out_ready_i or in_valid_i.
 //   4. Reset is synchronous and clears the valid flags; in_ready_o is low while it is high. What was
 //      in flight is lost.
-//   5. A rank's data registers are loaded together with its valid flag; a bubble does not change them.
+//   5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
+//      not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 //
 // in_ready_o depends on out_ready_i through one gate: rule 2, written out, says that a rank advances
 // when the output is taken or any rank from it on is empty.

@@ -11,7 +11,8 @@
 //! 3. `out_valid` depends on registers only, never on `out_ready` or `in_valid`.
 //! 4. Reset is synchronous and clears the valid flags; `in_ready` is low while it is high. What was
 //!    in flight is lost.
-//! 5. A rank's data registers are loaded together with its valid flag; a bubble does not change them.
+//! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
+//!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 
 use hw_model::datapath::{Datapath, Signals, Status};
 

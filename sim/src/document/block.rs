@@ -1,7 +1,7 @@
 //! The data path of one configuration as a block diagram: the parts it keeps, and the widths between.
 
 use hw_model::datapath::Datapath;
-use hw_model::datapath::formats::{PolynomialFormats, TailFormats};
+use hw_model::datapath::formats::PolynomialFormats;
 use hw_model::datapath::front_end::Variable;
 use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::design::Design;
@@ -9,24 +9,31 @@ use hw_model::format::QFormat;
 use hw_model::quantise::decimal;
 use hw_model::rom::{FieldName, Place};
 
-use super::canvas::{Anchor, Canvas, Point, colour};
+use super::canvas::{Anchor, Canvas, Point, colour, hop};
 use super::layout::{BOX, Column, LANE, Lanes, PORTS, X_HEIGHT, columns, lanes, wire};
 use super::words::line_formula;
 
 const TITLE: f64 = 14.0;
 const NORMAL: f64 = 12.0;
-const SMALL: f64 = 10.5;
+pub(super) const SMALL: f64 = 10.5;
 /// Width of the mark of a register.
 const REGISTER: f64 = 6.0;
 
 /// A picture under way, with what it is drawn from.
-struct Picture<'a> {
-    canvas: Canvas,
-    datapath: &'a Datapath,
-    columns: Vec<Column>,
-    lanes: Lanes,
-    /// The fields whose wires run above the lanes, from the top.
-    above: Vec<FieldName>,
+pub(super) struct Picture<'a> {
+    pub(super) canvas: Canvas,
+    pub(super) datapath: &'a Datapath,
+    pub(super) columns: Vec<Column>,
+    pub(super) lanes: Lanes,
+    /// What runs above the lanes, from the top.
+    above: Vec<Above>,
+}
+
+/// What the ROM sends along above the lanes.
+#[derive(Clone, Copy)]
+enum Above {
+    Field(FieldName),
+    NoWord,
 }
 
 /// The block diagram.
@@ -45,7 +52,8 @@ pub(super) fn block(design: &Design) -> String {
     } else {
         &[FieldName::TailB, FieldName::TailA]
     };
-    let above: Vec<FieldName> = order.iter().copied().filter(has).collect();
+    let fields = order.iter().copied().filter(has).map(Above::Field);
+    let above: Vec<Above> = fields.chain([Above::NoWord]).collect();
     let mut picture = Picture {
         canvas: Canvas::new(),
         datapath,
@@ -72,12 +80,12 @@ pub(super) fn block(design: &Design) -> String {
 }
 
 impl Picture<'_> {
-    fn last(&self) -> Column {
+    pub(super) fn last(&self) -> Column {
         self.columns[self.columns.len() - 1]
     }
 
     /// The column that a rank stands in.
-    fn of_rank(&self, rank: usize) -> Column {
+    pub(super) fn of_rank(&self, rank: usize) -> Column {
         let found = self.columns.iter().find(|column| column.last >= rank);
         found.copied().unwrap_or_else(|| self.last())
     }
@@ -98,7 +106,13 @@ impl Picture<'_> {
     }
 
     /// A box that ends in registers, with lines of words in its middle.
-    fn part(&mut self, (x, y): Point, (width, height): Point, fill: &str, words: &[String]) {
+    pub(super) fn part(
+        &mut self,
+        (x, y): Point,
+        (width, height): Point,
+        fill: &str,
+        words: &[String],
+    ) {
         self.canvas.rectangle((x, y), (width, height), fill);
         self.canvas.block((x + width - REGISTER, y), (REGISTER, height), colour::REGISTER);
         let middle = y + height / 2.0 - 7.5 * (words.len() as f64 - 1.0) + 4.0;
@@ -110,7 +124,7 @@ impl Picture<'_> {
     }
 
     /// The registers of a column on a wire; how many, where it is more than one.
-    fn carried(&mut self, column: &Column, y: f64) {
+    pub(super) fn carried(&mut self, column: &Column, y: f64) {
         let x = column.right() - REGISTER;
         self.canvas.block((x, y - 7.0), (REGISTER, 14.0), colour::REGISTER);
         if column.ranks() > 1 {
@@ -120,7 +134,7 @@ impl Picture<'_> {
     }
 
     /// A wire from the end of a column, with words above and below it.
-    fn wire(&mut self, from: f64, to: f64, y: f64, above: &str, below: &str) {
+    pub(super) fn wire(&mut self, from: f64, to: f64, y: f64, above: &str, below: &str) {
         self.canvas.arrow(&[(from, y), (to, y)]);
         self.canvas.text((from + 5.0, y - 5.0), above, Anchor::Start, SMALL);
         self.canvas.quiet((from + 5.0, y + 13.0), below, Anchor::Start, SMALL);
@@ -146,8 +160,13 @@ impl Picture<'_> {
         let height = self.lanes.foot - self.lanes.polynomial;
         self.part(place, (BOX, height), colour::GREY, &words);
         self.x_wire(&fetch, &front, x + X_HEIGHT / 2.0);
-        for (index, name) in self.above.clone().into_iter().enumerate() {
-            self.field(name, wire(&self.lanes, index));
+        for (index, above) in self.above.clone().into_iter().enumerate() {
+            let y = wire(&self.lanes, index);
+            match above {
+                Above::Field(name) => self.field(name, y),
+                // To the box that takes in most, on the left: it is the lowest of its wires.
+                Above::NoWord => self.above(y, "no_word · 1", &front, -36.0),
+            }
         }
     }
 
@@ -156,8 +175,15 @@ impl Picture<'_> {
         if y < self.lanes.foot {
             self.wire(fetch.right(), front.left, y, &label, "");
         } else {
-            let points =
-                [(fetch.right(), y), (front.centre(), y), (front.centre(), self.lanes.foot)];
+            let x = front.centre();
+            let mut points = vec![(fetch.right(), y), (x, y)];
+            // Over the wires of A and B, which it has nothing to do with; from the lowest up.
+            for crossed in self.tail_rows().into_iter().rev() {
+                if let Place::Stored { .. } = crossed.place {
+                    points.extend(hop((x, crossed.y)));
+                }
+            }
+            points.push((x, self.lanes.foot));
             self.canvas.arrow(&points);
             self.canvas.text((fetch.right() + 5.0, y - 5.0), &label, Anchor::Start, SMALL);
         }
@@ -184,21 +210,19 @@ impl Picture<'_> {
         let Some(field) = self.datapath.rom().layout().field(name).copied() else { return };
         // The rank that takes it in, and where on the box's top.
         let (rank, beside) = match name {
-            // Of two wires to one box the upper goes to the right, so that they do not cross.
-            FieldName::Cut => (1, 24.0),
-            FieldName::Shift => (1, -24.0),
+            // Of the wires to one box an upper one goes further to the right, so that they do not cross.
+            FieldName::Cut => (1, 36.0),
+            FieldName::Shift => (1, 0.0),
             FieldName::C3 | FieldName::TailA => (2, -24.0),
             FieldName::C2 | FieldName::TailB => (2, 24.0),
             FieldName::C1 => (3, 0.0),
             FieldName::C0 => (4, 0.0),
         };
-        let (fetch, target) = (self.columns[0], self.of_rank(rank));
+        let target = self.of_rank(rank);
         let (x, top) = (target.centre() + beside, self.lanes.polynomial);
         match field.place {
             Place::Stored { .. } => {
-                self.canvas.arrow(&[(fetch.right(), y), (x, y), (x, top)]);
-                let label = format!("{name} · {}", field.format.width());
-                self.canvas.text((fetch.right() + 5.0, y - 5.0), &label, Anchor::Start, SMALL);
+                self.above(y, &labelled(name.name(), field.format), &target, beside);
                 for passed in 1..rank {
                     let column = self.of_rank(passed);
                     self.carried(&column, y);
@@ -206,10 +230,18 @@ impl Picture<'_> {
             }
             Place::Constant { bits } => {
                 self.canvas.arrow(&[(x, y), (x, top)]);
-                let label = format!("{name} = {} (constant)", decimal(bits, field.format));
+                let label = constant(name, bits, field.format);
                 self.canvas.text((x - 6.0, y + 6.0), &label, Anchor::End, SMALL);
             }
         }
+    }
+
+    /// A wire from the ROM to the top of a box.
+    fn above(&mut self, y: f64, label: &str, target: &Column, beside: f64) {
+        let from = self.columns[0].right();
+        let x = target.centre() + beside;
+        self.canvas.arrow(&[(from, y), (x, y), (x, self.lanes.polynomial)]);
+        self.canvas.text((from + 5.0, y - 5.0), label, Anchor::Start, SMALL);
     }
 
     fn polynomial(&mut self, stages: &[MultiplyAdd; 3], formats: &PolynomialFormats) {
@@ -254,58 +286,6 @@ impl Picture<'_> {
             self.canvas.block((column.centre() - 2.5, v - 2.5), (5.0, 5.0), colour::INK);
             self.carried(&column, v);
         }
-    }
-
-    fn tail(&mut self, formats: &TailFormats) {
-        let Some(divider) = self.datapath.divider().copied() else { return };
-        let (top, front) = (self.lanes.tail, self.columns[1]);
-        let y = top + LANE / 2.0;
-        let divisor = self.of_rank(2);
-        let words = [
-            "divisor".to_owned(),
-            "D = A − B·x".to_owned(),
-            dropped(divider.divisor.dropped_bits()),
-        ];
-        self.part((divisor.left, top), (BOX, LANE), colour::ORANGE, &words);
-        let x = self.datapath.tail_x_format();
-        self.wire(front.right(), divisor.left, y, &labelled("tail_x", x), &x.to_string());
-        if self.datapath.stages().is_some() {
-            self.tail_row(&divisor, formats);
-        }
-        let last_rank = 2 + divider.digit_stages() as usize;
-        let (first, last) = (self.of_rank(3), self.of_rank(last_rank));
-        let (bits, ranks) = (divider.digit_count, divider.digit_stages());
-        let words = [
-            "quotient bits".to_owned(),
-            format!("{bits} bits, {} a rank", divider.digits_per_stage),
-            format!("{ranks} rank{}", if ranks == 1 { "" } else { "s" }),
-        ];
-        let width = last.right() - first.left;
-        self.part((first.left, top), (width, LANE), colour::ORANGE, &words);
-        let (d, digits) = (formats.divisor.width(), formats.digits.width());
-        let both = format!("D · {d}, rem · {d}");
-        self.wire(divisor.right(), first.left, y, &both, &format!("digits · {digits}"));
-        let (from, to) = (last.right(), self.last().left);
-        self.wire(from, to, y, &format!("rem · {d}"), &format!("digits · {digits}"));
-        for column in self.columns.clone() {
-            if column.first > last_rank && column.last < self.datapath.rank_count() - 1 {
-                self.carried(&column, y);
-            }
-        }
-    }
-
-    /// A and B, from the ROM below everything to the divisor.
-    fn tail_row(&mut self, divisor: &Column, formats: &TailFormats) {
-        let (fetch, front) = (self.columns[0], self.columns[1]);
-        let y = self.lanes.tail_row;
-        let foot = self.lanes.tail + LANE;
-        let points = [(fetch.right(), y), (divisor.centre(), y), (divisor.centre(), foot)];
-        self.canvas.arrow(&points);
-        let (a, b) = (formats.a.width(), formats.b.width());
-        let place = fetch.right() + 5.0;
-        self.canvas.text((place, y - 5.0), &format!("tail_a · {a}"), Anchor::Start, SMALL);
-        self.canvas.text((place, y + 13.0), &format!("tail_b · {b}"), Anchor::Start, SMALL);
-        self.carried(&front, y);
     }
 
     /// Region and status along the lanes, the clamp, and the ports behind it.
@@ -369,10 +349,14 @@ impl Picture<'_> {
     }
 }
 
-fn labelled(name: &str, format: QFormat) -> String {
+pub(super) fn constant(name: FieldName, bits: i64, format: QFormat) -> String {
+    format!("{name} = {} (constant)", decimal(bits, format))
+}
+
+pub(super) fn labelled(name: &str, format: QFormat) -> String {
     format!("{name} · {}", format.width())
 }
 
-fn dropped(bits: u32) -> String {
+pub(super) fn dropped(bits: u32) -> String {
     if bits == 0 { "exact".to_owned() } else { format!("drops {bits} bits") }
 }

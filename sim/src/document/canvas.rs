@@ -171,6 +171,17 @@ impl Canvas {
     }
 }
 
+/// The corners of a wire on its way up that hops over another at this place.
+pub(super) fn hop((x, y): Point) -> Vec<Point> {
+    const RADIUS: f64 = 6.0;
+    const CORNERS: u32 = 8;
+    let corner = |index| {
+        let angle = std::f64::consts::PI * f64::from(index) / f64::from(CORNERS);
+        (x + RADIUS * angle.sin(), y + RADIUS * angle.cos())
+    };
+    (0..=CORNERS).map(corner).collect()
+}
+
 fn listed(points: &[Point]) -> String {
     let points: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
     points.join(" ")

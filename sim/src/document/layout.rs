@@ -10,8 +10,8 @@ pub(super) const BOX: f64 = 118.0;
 pub(super) const LANE: f64 = 62.0;
 /// Between two columns.
 const GAP: f64 = 98.0;
-/// Between two wires above the lanes.
-const WIRE: f64 = 24.0;
+/// Between two wires above the lanes, or below.
+pub(super) const WIRE: f64 = 24.0;
 /// Where the first of those wires runs.
 const FIRST_WIRE: f64 = 74.0;
 
@@ -56,7 +56,7 @@ pub(super) struct Lanes {
     pub(super) region: f64,
     /// The divider, where there is one.
     pub(super) tail: f64,
-    /// The wire of A and B, where it runs below.
+    /// The upper of the wires of A and B, where they run below.
     pub(super) tail_row: f64,
     /// The foot of the front end and of the clamp.
     pub(super) foot: f64,
@@ -98,7 +98,7 @@ pub(super) fn lanes(datapath: &Datapath, wires: usize) -> Lanes {
     let region = if polynomial { below + 52.0 } else { below + 24.0 };
     let tail_top = if polynomial { region + 30.0 } else { top };
     let foot = if both { tail_top + LANE } else { region + 16.0 };
-    let rom_foot = if both { foot + 40.0 } else { top + 6.0 };
+    let rom_foot = if both { foot + 40.0 + WIRE } else { top + 6.0 };
     let x = rom_foot + 18.0;
     Lanes {
         first_wire: FIRST_WIRE,

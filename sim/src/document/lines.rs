@@ -146,17 +146,17 @@ pub(super) fn regions(datapath: &Datapath) -> Table {
     };
     let below = match (datapath.stages().is_some(), datapath.divider().is_some()) {
         (true, false) => {
-            row("polynomial", 1, "x ≥ cut", "t3, clamped");
-            "x < cut; x < 0; no ROM word"
+            row("polynomial", 1, "x ≥ cut, and a ROM word", "t3, clamped");
+            "x < cut (so x < 0 too); or no ROM word"
         }
         (true, true) => {
-            row("polynomial", 1, "x ≥ cut", "t3, clamped");
-            row("tail", 2, "0 ≤ x < cut", "the quotient, rounded");
-            "x < 0; no ROM word"
+            row("polynomial", 1, "x ≥ cut, and a ROM word", "t3, clamped");
+            row("tail", 2, "0 ≤ x < cut, and a ROM word", "the quotient, rounded");
+            "x < 0; or no ROM word"
         }
         (false, _) => {
-            row("tail", 2, "x ≥ 0", "the quotient, rounded");
-            "x < 0; no ROM word"
+            row("tail", 2, "x ≥ 0, and a ROM word", "the quotient, rounded");
+            "x < 0; or no ROM word"
         }
     };
     row("zero", 0, below, "0");

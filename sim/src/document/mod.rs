@@ -5,10 +5,13 @@
 
 mod block;
 mod canvas;
+mod divider;
 mod examples;
+mod flip_flops;
 mod layout;
 mod lines;
 mod page;
+mod paths;
 mod ports;
 mod reasons;
 mod registers;

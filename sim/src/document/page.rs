@@ -9,7 +9,7 @@ use super::registers::Facts;
 use super::scenario::Scenario;
 use super::table::Table;
 use super::words::places;
-use super::{examples, lines, ports, registers};
+use super::{examples, flip_flops, lines, paths, ports, registers};
 
 #[derive(Template)]
 #[template(path = "hardware.md", escape = "none")]
@@ -25,6 +25,7 @@ struct Page<'a> {
     rom_words: Table,
     registers: Table,
     ranks: Table,
+    paths: Table,
     regions: Table,
     lines: Table,
     variable: String,
@@ -58,7 +59,8 @@ pub(super) fn page(
         rom: ports::rom(design),
         rom_words: ports::words(design),
         registers: registers::registers(&facts),
-        ranks: registers::ranks(datapath),
+        ranks: flip_flops::ranks(datapath),
+        paths: paths::paths(datapath),
         regions: lines::regions(datapath),
         lines: lines::lines(datapath),
         variable: lines::variable(datapath),

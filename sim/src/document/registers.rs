@@ -216,20 +216,3 @@ fn numbers(held: &Held, format: QFormat) -> String {
     let range = format!("{} … {}", value(held.least, format), value(held.greatest, format));
     held.furthest.map_or_else(|| range.clone(), |n| format!("{range} (furthest at n = {n})"))
 }
-
-/// What each rank holds.
-pub(super) fn ranks(datapath: &Datapath) -> Table {
-    let mut table = Table::new(&["rank", "name", "registers (width)", "flip-flops"]);
-    for rank in 0..datapath.rank_count() {
-        let registers = datapath.registers(rank);
-        let listed: Vec<String> = registers
-            .iter()
-            .map(|register| format!("`{}` ({})", register.name, register.format.width()))
-            .collect();
-        let bits: u32 = registers.iter().map(|register| register.format.width()).sum();
-        let name = datapath.rank_name(rank);
-        // One more for the valid flag.
-        table.row([rank.to_string(), name, listed.join(", "), (bits + 1).to_string()]);
-    }
-    table
-}

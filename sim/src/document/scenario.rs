@@ -64,6 +64,8 @@ struct Script {
     words: String,
     /// The cycles in which a request becomes there to be taken.
     requests: Vec<usize>,
+    /// True where an address without a word would show nothing: its intensity is 0, as if nothing came.
+    words_only: bool,
     /// Cycles in which nobody takes results.
     stalled: std::ops::Range<usize>,
     /// Cycles in reset, beside the first.
@@ -71,6 +73,9 @@ struct Script {
     cycles: usize,
     spans: Vec<Span>,
 }
+
+/// The request whose address has no word.
+const WITHOUT_WORD: usize = 3;
 
 /// Every run that is drawn.
 pub(super) fn scenarios(datapath: &Datapath) -> Vec<Scenario> {
@@ -90,6 +95,7 @@ fn scripts(ranks: usize) -> [Script; 4] {
                  {ranks} edges later."
             ),
             requests: vec![1, 2, 3, 4],
+            words_only: false,
             stalled: 0..0,
             reset: 0..0,
             cycles: ranks + 7,
@@ -103,6 +109,7 @@ fn scripts(ranks: usize) -> [Script; 4] {
                  the same cycle; the request that is presented waits, unchanged. Nothing is lost."
             ),
             requests: (1..ranks + 3).collect(),
+            words_only: false,
             stalled: out..out + 3,
             reset: 0..0,
             cycles: ranks + 9,
@@ -116,6 +123,7 @@ fn scripts(ranks: usize) -> [Script; 4] {
                     empty or the next one advances."
                 .to_owned(),
             requests: vec![1, 4, 5],
+            words_only: false,
             stalled: out..out + 3,
             reset: 0..0,
             cycles: ranks + 9,
@@ -129,6 +137,7 @@ fn scripts(ranks: usize) -> [Script; 4] {
                     No result of A, B or C comes out."
                 .to_owned(),
             requests: vec![1, 2, 3, 4],
+            words_only: true,
             stalled: 0..0,
             reset: 4..5,
             cycles: ranks + 8,
@@ -138,7 +147,11 @@ fn scripts(ranks: usize) -> [Script; 4] {
 }
 
 fn play(datapath: &Datapath, script: Script) -> Scenario {
-    let requests = requests(datapath, script.requests.len());
+    let count = script.requests.len();
+    let mut requests = requests(datapath, count + usize::from(script.words_only));
+    if script.words_only {
+        requests.remove(WITHOUT_WORD);
+    }
     let cycles = script.cycles;
     let stimulus = (0..cycles).map(|cycle| {
         let which = script.requests.iter().position(|&when| when == cycle);
@@ -191,7 +204,7 @@ fn requests(datapath: &Datapath, count: usize) -> Vec<Request> {
         let (address, x) = match index {
             1 => (depth - 1, greatest),
             2 => (spread, (cut - (cut >> 5) - own).max(0)),
-            3 => (depth, greatest - (greatest >> 2) - own),
+            WITHOUT_WORD => (depth, greatest - (greatest >> 2) - own),
             _ => (spread, (cut.midpoint(greatest) - own).max(0)),
         };
         Request { address, x, result: datapath.evaluate(address, x) }

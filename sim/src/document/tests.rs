@@ -66,6 +66,23 @@ fn pictures_can_be_read() {
     }
 }
 
+/// What leaves rank 0 is on a wire of its own, or in a box of its own.
+#[test]
+fn the_block_diagram_shows_every_register_of_rank_0() {
+    for design in designs() {
+        let mut found = Vec::new();
+        texts(parse(&block::block(&design)).unwrap().root(), &mut found);
+        for register in design.datapath().registers(0) {
+            let label = match register.name {
+                "status" => "no_word · 1".to_owned(),
+                name => format!("{name} · {}", register.format.width()),
+            };
+            let times = found.iter().filter(|(text, _)| *text == label).count();
+            assert_eq!(times, 1, "{}: {label}", design.config().name);
+        }
+    }
+}
+
 #[test]
 fn the_runs_show_what_their_words_say() {
     for design in designs() {
@@ -89,6 +106,7 @@ fn the_runs_show_what_their_words_say() {
                     assert!(samples[5].ranks.iter().all(Option::is_none));
                     let results: Vec<_> = (0..samples.len()).filter_map(out).collect();
                     assert_eq!(results, [3]);
+                    assert!(scenario.requests[3].result.intensity > 0, "to be told from nothing");
                 }
             }
         }

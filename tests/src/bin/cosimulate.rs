@@ -1,17 +1,18 @@
 //! `make rtl`: every preset's RTL in every simulator, against the model.
 //!
 //! Vectors with stalls, bubbles and resets; random cycles in which every register is compared; a small
-//! configuration exhaustively; a corrupted vector and planted faults, which must be found. Ends with
-//! what was compared, and fails when anything differs or nothing was compared.
+//! configuration exhaustively; a corrupted vector and planted faults, which must be found. Yosys counts
+//! the parts of each netlist, and FuseSoC runs the core file. Ends with what was compared, and fails when
+//! anything differs or nothing was compared.
 
 use std::io::BufReader;
 use std::process::{ExitCode, Stdio};
 
 use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
-use blysk_tests::rtl::waves;
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
 use blysk_tests::rtl::{Failure, failed};
+use blysk_tests::rtl::{fusesoc, netlist_parts, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -39,6 +40,10 @@ const SMALL: [(&str, Strategy, &str); 3] = [
             "error_budget_ulp": 2, "quotient_bits_per_stage": 3}"#,
     ),
 ];
+
+/// Its c3 is 0 for every n, so it has a multiplier less. Only its netlist is looked at.
+const TWO_MULTIPLIERS: &str = r#"{"name": "quadratic", "method": "quadratic", "exponents": "1..=16",
+    "input": "UQ1.15", "output": "UQ1.8"}"#;
 
 /// What was compared.
 #[derive(Clone, Copy, Default)]
@@ -92,6 +97,10 @@ fn run() -> Result<Totals, Failure> {
     let presets = presets::ALL.par_iter().map(|preset| {
         let design = design(preset.json)?;
         let emitted = emit(&design, preset.name, Strategy::Mixed, VECTORS)?;
+        if preset.name == "compact" {
+            fusesoc::check(&emitted)?;
+            fusesoc::check_dut(&design)?;
+        }
         everything(&emitted, preset.name, &simulators, true)
     });
     let small = SMALL.par_iter().map(|&(name, strategy, json)| {
@@ -104,8 +113,16 @@ fn run() -> Result<Totals, Failure> {
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
         .fold(Totals::default(), |sum, part| sum + part);
+    let quadratic = design(TWO_MULTIPLIERS)?;
+    parts(&emit(&quadratic, "quadratic", Strategy::Mixed, 1)?, "quadratic")?;
     planted(&simulators[0])?;
     Ok(total)
+}
+
+fn parts(emitted: &Emitted<'_>, name: &str) -> Result<(), Failure> {
+    let (multipliers, flip_flops) = netlist_parts::check(emitted)?;
+    println!("{name:<12} netlist (Yosys): {multipliers} multipliers, {flip_flops} flip-flops");
+    Ok(())
 }
 
 fn design(json: &str) -> Result<Design, Failure> {
@@ -120,6 +137,7 @@ fn everything(
     random: bool,
 ) -> Result<Totals, Failure> {
     simulators::yosys_reads(&emitted.directory)?;
+    parts(emitted, name)?;
     let mut totals = Totals::default();
     for (index, simulator) in simulators.iter().enumerate() {
         let part = vectors(emitted, name, simulator)?;

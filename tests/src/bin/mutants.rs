@@ -1,13 +1,16 @@
 //! `make mutants`: do the emitted vectors catch wrong RTL?
 //!
 //! `mutants PRESET…`; with none named, every preset. Writes `results/mutants/<preset>.csv` (every
-//! mutant, and what each bundle's testbench found) and `matrix.csv` (the kill matrix).
+//! mutant, and what each bundle's testbench found) and `matrix.csv` (the kill matrix, class by class).
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
-use blysk_tests::rtl::mutants::{Bench, Outcome, edits, netlist, own_sources, preset, rom};
+use blysk_tests::rtl::mutants::{
+    Bench, DISTANT_ROWS, HANDSHAKE, NETLIST, Outcome, class, edits, netlist, own_sources, preset,
+    rom,
+};
 use blysk_tests::rtl::simulators::{self, Simulator, repository};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::design::Design;
@@ -15,7 +18,7 @@ use rayon::prelude::*;
 use vectors::faults::{Compact, Fault, Logic, Workers};
 use vectors::{Bundle, Strategy};
 
-/// Netlist mutations of each preset, and the seed that chooses them.
+/// Netlist mutations of each preset, and the seed that chooses them and the distant rows.
 const MUTATIONS: usize = 500;
 const SEED: u64 = 1;
 /// How long a proof of equivalence may take, in seconds.
@@ -66,6 +69,11 @@ struct Mutant {
 }
 
 impl Mutant {
+    /// True for what the compact set is made to catch.
+    fn is_of_model(&self) -> bool {
+        ![NETLIST, DISTANT_ROWS].contains(&self.class)
+    }
+
     fn fate(&self, killed_by: Option<&String>) -> &'static str {
         match (killed_by, self.equivalent) {
             (Some(_), _) => "killed",
@@ -129,12 +137,15 @@ impl Campaign<'_> {
         smallest: &Bench,
         equivalent: &[Fault],
     ) -> Result<Vec<Mutant>, Failure> {
-        let faults = rom::faults(self.design);
+        let faults = rom::faults(self.design, SEED);
         println!("{}: {} wrong ROMs", self.name, faults.len());
         let by_default = rom::run(default, self.verilator, self.design, &faults)?;
         let by_compact = rom::run(smallest, self.verilator, self.design, &faults)?;
-        let proofs = faults.iter().map(|fault| equivalent.contains(fault).then_some(BY_INPUTS));
-        Ok(merge("ROM", by_default, by_compact, proofs))
+        let known = faults.iter().map(|wrong| {
+            let proved = wrong.fault().is_some_and(|fault| equivalent.contains(&fault));
+            (wrong.class(), proved.then_some(BY_INPUTS))
+        });
+        Ok(merge(known, by_default, by_compact))
     }
 
     /// Each edit is compiled on its own, in Icarus, which compiles fastest.
@@ -149,10 +160,11 @@ impl Campaign<'_> {
         let run = |bench: &Bench| -> Result<Vec<Outcome>, Failure> {
             edits.par_iter().map(|edit| bench.run_edit(self.icarus, edit)).collect()
         };
-        let proofs = edits
-            .iter()
-            .map(|edit| edit.fault.filter(|fault| equivalent.contains(fault)).map(|_| BY_INPUTS));
-        Ok(merge("line", run(default)?, run(smallest)?, proofs))
+        let known = edits.iter().map(|edit| {
+            let proof = edit.fault.filter(|fault| equivalent.contains(fault)).map(|_| BY_INPUTS);
+            (edit.fault.map_or(HANDSHAKE, class), proof)
+        });
+        Ok(merge(known, run(default)?, run(smallest)?))
     }
 
     /// What is known of t3 where the model has shown that no input makes the clamp act.
@@ -203,19 +215,20 @@ impl Campaign<'_> {
                 Ok(proved.then_some(BY_PROOF))
             })
             .collect::<Result<_, Failure>>()?;
-        Ok(merge("netlist", by_default, by_compact, proofs.into_iter()))
+        let known = proofs.into_iter().map(|proof| (NETLIST, proof));
+        Ok(merge(known, by_default, by_compact))
     }
 }
 
+/// `known` of each mutant is its class, and why it may survive.
 fn merge(
-    class: &'static str,
+    known: impl Iterator<Item = (&'static str, Option<&'static str>)>,
     by_default: Vec<Outcome>,
     by_compact: Vec<Outcome>,
-    proofs: impl Iterator<Item = Option<&'static str>>,
 ) -> Vec<Mutant> {
-    let outcomes = by_default.into_iter().zip(by_compact).zip(proofs);
+    let outcomes = by_default.into_iter().zip(by_compact).zip(known);
     outcomes
-        .map(|((default, compact), equivalent)| Mutant {
+        .map(|((default, compact), (class, equivalent))| Mutant {
             class,
             name: default.name,
             by_default: default.killed_by,
@@ -225,24 +238,57 @@ fn merge(
         .collect()
 }
 
+/// How many of the wrong ones were killed.
+#[derive(Clone, Copy, Default)]
+struct Rate {
+    killed: u64,
+    all: u64,
+}
+
+impl Rate {
+    fn of<'a>(
+        mutants: impl Iterator<Item = &'a Mutant>,
+        by: fn(&Mutant) -> Option<&String>,
+    ) -> Self {
+        mutants.filter(|mutant| mutant.fate(by(mutant)) != "equivalent").fold(
+            Self::default(),
+            |Self { killed, all }, mutant| Self {
+                killed: killed + u64::from(by(mutant).is_some()),
+                all: all + 1,
+            },
+        )
+    }
+
+    fn percent(self) -> f64 {
+        100.0 * self.killed as f64 / self.all.max(1) as f64
+    }
+}
+
+impl std::fmt::Display for Rate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(&format!("{} of {} ({:.2} %)", self.killed, self.all, self.percent()))
+    }
+}
+
 /// Prints the rates and the survivors; false where a bundle catches too little.
 fn judge(preset: &str, mutants: &[Mutant]) -> bool {
-    let rate = |counted: &dyn Fn(&Mutant) -> bool, by: fn(&Mutant) -> Option<&String>| {
-        let wrong = mutants
-            .iter()
-            .filter(|mutant| counted(mutant) && mutant.fate(by(mutant)) != "equivalent");
-        let (all, killed) = wrong.fold((0_u64, 0_u64), |(all, killed), mutant| {
-            (all + 1, killed + u64::from(by(mutant).is_some()))
-        });
-        (killed, all)
-    };
-    let (killed, all) = rate(&|_| true, |mutant| mutant.by_default.as_ref());
-    let (by_compact, of_model) = rate(&|m| m.class != "netlist", |m| m.by_compact.as_ref());
-    let percent = 100.0 * killed as f64 / all.max(1) as f64;
-    println!(
-        "{preset}: {VECTORS} default vectors kill {killed} of {all} wrong ones ({percent:.2} %); \
-         the compact set kills {by_compact} of {of_model} of the fault model"
-    );
+    let by_default: fn(&Mutant) -> Option<&String> = |mutant| mutant.by_default.as_ref();
+    let by_compact: fn(&Mutant) -> Option<&String> = |mutant| mutant.by_compact.as_ref();
+    println!("{preset}: wrong ones killed, by class");
+    println!("  {:<18} {:<26} the compact set", "", format!("{VECTORS} default vectors"));
+    let mut classes: Vec<&str> = mutants.iter().map(|mutant| mutant.class).collect();
+    classes.sort_unstable();
+    classes.dedup();
+    for class in classes {
+        let members = || mutants.iter().filter(|mutant| mutant.class == class);
+        let (default, compact) = (Rate::of(members(), by_default), Rate::of(members(), by_compact));
+        println!("  {class:<18} {default:<26} {compact}");
+    }
+    let whole = Rate::of(mutants.iter(), by_default);
+    let of_model = || mutants.iter().filter(|mutant| mutant.is_of_model());
+    let model = Rate::of(of_model(), by_compact);
+    println!("  {ALL:<18} {whole:<26} {}", Rate::of(mutants.iter(), by_compact));
+    println!("  {:<18} {:<26} {model}", "the fault model", Rate::of(of_model(), by_default));
     for mutant in mutants.iter().filter(|m| m.by_default.is_none() || m.by_compact.is_none()) {
         let place = match (&mutant.by_default, &mutant.by_compact) {
             (None, None) => "both bundles",
@@ -252,7 +298,7 @@ fn judge(preset: &str, mutants: &[Mutant]) -> bool {
         let why = mutant.equivalent.unwrap_or("not shown to be equivalent: an escape");
         println!("  {} survives {place}: {why}", mutant.name);
     }
-    all > 0 && percent >= 99.0 && of_model > 0 && by_compact == of_model
+    whole.all > 0 && whole.percent() >= 99.0 && model.all > 0 && model.killed == model.all
 }
 
 fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
@@ -277,6 +323,9 @@ fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
     written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
 }
 
+/// All classes together.
+const ALL: &str = "all";
+
 /// How many of each class met each fate, by preset and bundle.
 #[derive(Default)]
 struct Matrix {
@@ -287,8 +336,10 @@ impl Matrix {
     fn add(&mut self, preset: &str, mutants: &[Mutant]) {
         for mutant in mutants {
             for (bundle, by) in [("default", &mutant.by_default), ("compact", &mutant.by_compact)] {
-                let cell = self.cells.entry((preset.to_owned(), mutant.class, bundle)).or_default();
-                *cell.entry(mutant.fate(by.as_ref())).or_default() += 1;
+                for class in [mutant.class, ALL] {
+                    let cell = self.cells.entry((preset.to_owned(), class, bundle)).or_default();
+                    *cell.entry(mutant.fate(by.as_ref())).or_default() += 1;
+                }
             }
         }
     }
@@ -296,16 +347,30 @@ impl Matrix {
     fn write(&self, path: &Path) -> Result<(), Failure> {
         let written = || -> csv::Result<()> {
             let mut csv = csv::Writer::from_path(path)?;
-            csv.write_record(["preset", "class", "bundle", "killed", "equivalent", "escaped"])?;
+            csv.write_record([
+                "preset",
+                "class",
+                "bundle",
+                "killed",
+                "equivalent",
+                "escaped",
+                "killed_percent",
+            ])?;
             for ((preset, class, bundle), fates) in &self.cells {
-                let count = |fate| fates.get(fate).copied().unwrap_or(0).to_string();
+                let count = |fate| fates.get(fate).copied().unwrap_or(0);
+                let (killed, escaped) = (count("killed"), count("escaped"));
+                let rate = Rate { killed, all: killed + escaped };
+                // Where all are equivalent there is nothing to kill.
+                let percent =
+                    if rate.all == 0 { String::new() } else { format!("{:.2}", rate.percent()) };
                 csv.write_record([
                     preset,
                     *class,
                     *bundle,
-                    &count("killed"),
-                    &count("equivalent"),
-                    &count("escaped"),
+                    &killed.to_string(),
+                    &count("equivalent").to_string(),
+                    &escaped.to_string(),
+                    &percent,
                 ])?;
             }
             csv.flush()?;

@@ -2,7 +2,9 @@
 
 pub mod exhaustive;
 pub mod faults;
+pub mod fusesoc;
 pub mod mutants;
+pub mod netlist_parts;
 pub mod simulators;
 pub mod waves;
 pub mod workspace;

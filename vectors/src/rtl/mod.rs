@@ -18,6 +18,7 @@ use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
 pub use package::{package, rounding_number};
+pub use project::core_name;
 pub use testbench::testbench;
 
 use probes::StageWord;

@@ -12,10 +12,17 @@ pub fn makefile(sources: &Sources<'_>) -> String {
     Makefile { sources, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
 }
 
+/// What FuseSoC calls the pipeline of a configuration.
+#[must_use]
+pub fn core_name(configuration: &str) -> String {
+    format!("blysk:pipeline:{configuration}:{}", env!("CARGO_PKG_VERSION"))
+}
+
 /// The text of the FuseSoC core file.
 #[must_use]
 pub fn core_file(sources: &Sources<'_>) -> String {
-    CoreFile { sources, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
+    let vlnv = core_name(&sources.design.config().name);
+    CoreFile { sources, vlnv, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
 }
 
 #[derive(Template)]
@@ -29,6 +36,7 @@ struct Makefile<'a> {
 #[template(path = "blysk.core", escape = "none")]
 struct CoreFile<'a> {
     sources: &'a Sources<'a>,
+    vlnv: String,
     rtl: Vec<&'static str>,
 }
 

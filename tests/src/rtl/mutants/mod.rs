@@ -11,11 +11,31 @@ pub mod rom;
 use std::path::{Path, PathBuf};
 
 use hw_model::design::Design;
+use vectors::faults::Fault;
 use vectors::{Bundle, OutputSet, rtl};
 
 use super::simulators::{Simulator, repository};
 use super::workspace::copy;
 use super::{Failure, failed};
+
+/// The class of exchanged rows that the fault model does not have.
+pub const DISTANT_ROWS: &str = "distant rows";
+/// The class of mutations of the netlist.
+pub const NETLIST: &str = "netlist";
+/// The class of what only a clock and a stalled consumer show.
+pub const HANDSHAKE: &str = "handshake";
+
+/// The class that a fault of the model is counted in.
+#[must_use]
+pub const fn class(fault: Fault) -> &'static str {
+    match fault {
+        Fault::Field(_) => "coefficient",
+        Fault::Swap(_) => "neighbouring rows",
+        Fault::Rounding(..) => "rounding",
+        Fault::Register(..) => "register",
+        Fault::Logic(_) => "choice",
+    }
+}
 
 const WRAPPER: &str = include_str!("../blysk_mutated.sv");
 
