@@ -3,6 +3,7 @@
 //! A certificate has one way to be written. Reading compares the text with that, byte for byte, so that
 //! no digit can be another one, not even one that an f64 does not show.
 
+use hw_model::fit::Method;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::checksum::checksum;
@@ -161,22 +162,30 @@ impl Claim {
     pub fn statement(&self) -> String {
         match self {
             Self::Exponents(Claims { levels, claims }) => format!(
-                "For each of {} pairs of a method and an exponent n: max |f(x) - x^n| over real x on \
+                "{}, at each of {} pairs of an exponent and a region: max |f(x) - x^n| over real x on \
                  the region lies within [lower, upper], and max |f(x)/x^n - 1| does where it is \
                  given. f has real coefficients, Q = {}, G = {}; epicentre: x^n >= Q, tail: x^n <= Q.",
+                listed(claims.iter().map(|claim| claim.method)),
                 claims.len(),
                 levels.q(),
                 levels.g()
             ),
             Self::EveryExponent(Claims { levels, claims }) => format!(
-                "For each of {} methods: the supremum of |f(x) - x^n| over every real n >= 1 and \
-                 every real x with x^n >= Q lies within [lower, upper], and so does that of \
-                 |f(x)/x^n - 1|. f has real coefficients, Q = {}, G = {}.",
-                claims.len(),
+                "{}: the supremum of |f(x) - x^n| over every real n >= 1 and every real x with \
+                 x^n >= Q lies within [lower, upper], and so does that of |f(x)/x^n - 1|. f has real \
+                 coefficients, Q = {}, G = {}.",
+                listed(claims.iter().map(|claim| claim.method)),
                 levels.q(),
                 levels.g()
             ),
             Self::Hardware(claim) => claim.statement(),
         }
     }
+}
+
+/// The methods, each once.
+fn listed(methods: impl Iterator<Item = Method>) -> String {
+    let mut names: Vec<&str> = methods.map(Method::name).collect();
+    names.dedup();
+    names.join(", ")
 }

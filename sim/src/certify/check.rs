@@ -9,6 +9,8 @@
 //! | hardware                | [`super::hardware_check`]                                                  |
 
 use hw_model::exponents::MAX_EXPONENT;
+use hw_model::fit::Levels;
+use rayon::prelude::*;
 use thiserror::Error;
 
 use super::certificate::{BrokenSeal, Certificate, Claim};
@@ -18,8 +20,6 @@ use super::error::{ErrorFunction, EveryExponent, OneExponent};
 use super::hardware_check::check_hardware;
 use super::partition::boxes;
 use crate::analysis::error_report::Progress;
-use hw_model::fit::Levels;
-use rayon::prelude::*;
 
 /// Why a certificate is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

@@ -4,8 +4,18 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 9] =
-    ["report", "vectors", "rtl", "check", "simulate", "coefficients", "rom", "document", "presets"];
+const COMMANDS: [&str; 10] = [
+    "report",
+    "vectors",
+    "rtl",
+    "check",
+    "certify",
+    "simulate",
+    "coefficients",
+    "rom",
+    "document",
+    "presets",
+];
 
 /// The command lines after "Example:" or "Examples:".
 fn examples(help: &str) -> Vec<String> {

@@ -185,7 +185,7 @@ fn every_table(claims: &Claims<EveryClaim>, out: &mut Out) -> anyhow::Result<()>
 
 /// Where the witness of a claim for every n is.
 fn place(found: &Enclosure) -> String {
-    let power = (-found.witness.sigma).exp();
+    let power = core_math::exp(-found.witness.sigma);
     match found.witness.h {
         Some(h) if h > 0.0 => format!("at n = {}, x^n = {}", digits(1.0 / h, 6), digits(power, 6)),
         _ => format!("in the limit n -> infinity, x^n = {}", digits(power, 6)),
