@@ -8,7 +8,7 @@ The polynomial given to it is solved here, at 300 bits, from the conditions of t
 (`f(1) = 1, f(q) = Q, ...`), not from any formula of the project. Both enclosures are of the same number:
 they must have a point in common.
 
-The coefficients are rounded to 300 bits, the interval's end q outwards: that moves the norm by less than
+Roots and coefficients are rounded to 300 bits, the interval's end q outwards: that moves the norm by less than
 1e-60, which no comparison of doubles sees.
 
 Without Sollya the script says so and ends with status 0; with it, comparing nothing is a failure.
@@ -39,12 +39,12 @@ POLYNOMIALS = {
     "hermite": """d1 = (Q - 1)/(q - 1); s1 = n*Q/q; d2 = (s1 - d1)/(q - 1);
                   d3 = (1 + d1*(0 - 1) + d2*(0 - 1)*(0 - q))/(q^2);
                   f = 1 + d1*(x - 1) + d2*(x - 1)*(x - q) + d3*(x - 1)*(x - q)^2;""",
-    "three_point": """l = G^(1/n); d1 = (Q - 1)/(q - 1); s1 = (G - Q)/(l - q); d2 = (s1 - d1)/(l - 1);
+    "three_point": """l = round(G^(1/n), 300, RN); d1 = (Q - 1)/(q - 1); s1 = (G - Q)/(l - q); d2 = (s1 - d1)/(l - 1);
                       d3 = (1 + d1*(0 - 1) + d2*(0 - 1)*(0 - q))/(q*l);
                       f = 1 + d1*(x - 1) + d2*(x - 1)*(x - q) + d3*(x - 1)*(x - q)*(x - l);""",
     "quadratic": """d1 = (Q - 1)/(q - 1); s1 = n*Q/q; d2 = (s1 - d1)/(q - 1);
                     f = 1 + d1*(x - 1) + d2*(x - 1)*(x - q);""",
-    "tangent": """k = sqrt(Q/q); u = (1 - k)/(1 - q); v = (q - k)/(1 - q); f = x*(u*x - v)^2;""",
+    "tangent": """k = round(sqrt(Q/q), 300, RN); u = (1 - k)/(1 - q); v = (q - k)/(1 - q); f = x*(u*x - v)^2;""",
 }
 
 # 2^-30: how far the ends of Sollya's enclosure may be apart, relatively.

@@ -254,6 +254,28 @@ fn another_subject_or_region_is_refused() {
     assert_eq!(fault(Claim::Exponents(none)).unwrap().field, "claims");
 }
 
+/// Every digit of a short certificate, and every 13th of a long one, as another digit: the seal alone
+/// refuses it.
+#[test]
+fn the_seal_keeps_every_digit() {
+    let long = every(Method::Hermite);
+    for (claim, step) in [(every(Method::Schlick), 1), (long, 13)] {
+        let text = Certificate::new(claim).to_json();
+        assert_eq!(Certificate::parse(&text).unwrap().check_seal(&text), Ok(()));
+        let digits = (0..text.len()).filter(|&at| text.as_bytes()[at].is_ascii_digit());
+        let mut refused = 0;
+        for at in digits.step_by(step) {
+            let digit = text.as_bytes()[at] - b'0';
+            let mut other = text.clone();
+            other.replace_range(at..=at, &((digit + 1) % 10).to_string());
+            let accepted = Certificate::parse(&other).is_ok_and(|c| c.check_seal(&other).is_ok());
+            assert!(!accepted, "byte {at}");
+            refused += 1;
+        }
+        assert!(refused > 300, "{refused}");
+    }
+}
+
 type HardwareForgery = fn(&mut HardwareClaim);
 
 #[test]
@@ -282,7 +304,7 @@ fn forged_hardware_is_refused() {
         (|c| c.rows.truncate(7), "rows"),
         (|c| c.points += 1, "points"),
         (|c| c.epicentre.upper = c.epicentre.lower, "epicentre"),
-        (|c| c.configuration.rounding = hw_model::rounding::Rounding::Floor, "rows"),
+        (|c| c.configuration.q = 0.45, "rows"),
     ];
     for (index, (forge, field)) in forgeries.iter().enumerate() {
         let mut forged = good.clone();
