@@ -6,7 +6,7 @@
 //! | upper                   | the partition covers the region; the error over each box, in intervals    |
 //! | lower                   | the error at the witness, in intervals                                     |
 //! | a hyperbola's far end   | its value at `far`, as it falls from there on                              |
-//! | hardware                | [`super::hardware_check`]                                                  |
+//! | hardware                | `hardware_check.rs`                                                  |
 
 use hw_model::exponents::MAX_EXPONENT;
 use hw_model::fit::Levels;

@@ -5,7 +5,7 @@
 //! most 1: 2⁻⁵⁴. The difference of two f64 is rounded to the nearest as well, by at most 2⁻⁵⁴ again. So
 //! the greatest of all differences that the sweep computes, and 2⁻⁵³, is not less than the greatest error.
 //! (Where the sweep spares the reference, it does so for points that cannot exceed what was seen; it is not
-//! believed: [`super::hardware_check`] looks at every x again, in another way.)
+//! believed: `hardware_check.rs` looks at every x again, in another way.)
 
 use hw_model::config::Config;
 use hw_model::design::Design;

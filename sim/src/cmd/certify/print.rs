@@ -7,7 +7,7 @@ use hw_model::fit::Method;
 use super::super::table::{Cell, Format, Rows, digits};
 use crate::certify::certificate::Claim;
 use crate::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Region};
-use crate::certify::hardware::{HardwareClaim, HardwareRow, Worst};
+use crate::certify::hardware::{HardwareClaim, HardwareRow, Overall, Worst};
 use crate::cmd::Out;
 
 /// More exponents than that are summed up in a table.
@@ -116,7 +116,7 @@ fn greatest(claims: &[ExponentClaim]) -> Vec<&ExponentClaim> {
     for claim in claims {
         let same =
             |other: &&ExponentClaim| (other.method, other.region) == (claim.method, claim.region);
-        match chosen.iter().position(|other| same(other)) {
+        match chosen.iter().position(same) {
             Some(at) if chosen[at].absolute.upper() < claim.absolute.upper() => chosen[at] = claim,
             Some(_) => {}
             None => chosen.push(claim),
@@ -222,22 +222,28 @@ fn hardware_table(claim: &HardwareClaim, out: &mut Out) -> anyhow::Result<()> {
         configuration.name
     )?;
     writeln!(out, "greatest |output - x^n|, by exhaustion, between")?;
-    let parts: [(&str, _, fn(&HardwareRow) -> Worst); 2] = [
-        ("epicentre", epicentre, |row| row.epicentre),
-        ("all of [0, 1]", full_range, |row| row.full_range),
-    ];
-    for (name, overall, of) in parts {
-        let (lower, upper) = (shortened(overall.lower, false), shortened(overall.upper, true));
-        writeln!(out, "  {name:13}  {lower} and {upper}")?;
-        if let Some(row) = rows.iter().find(|row| row.n == overall.n) {
-            let Worst { x, output, .. } = of(row);
-            writeln!(out, "  {:13}  at n = {}, x = {x:#x}, output {output:#x}", "", row.n)?;
-        }
-    }
+    hardware_lines("epicentre", epicentre, rows, |row| row.epicentre, out)?;
+    hardware_lines("all of [0, 1]", full_range, rows, |row| row.full_range, out)?;
     writeln!(
         out,
         "the reference, x^n correctly rounded, is off by at most 2^-54, which is within"
     )?;
+    Ok(())
+}
+
+fn hardware_lines(
+    name: &str,
+    overall: &Overall,
+    rows: &[HardwareRow],
+    of: fn(&HardwareRow) -> Worst,
+    out: &mut Out,
+) -> anyhow::Result<()> {
+    let (lower, upper) = (shortened(overall.lower, false), shortened(overall.upper, true));
+    writeln!(out, "  {name:13}  {lower} and {upper}")?;
+    if let Some(row) = rows.iter().find(|row| row.n == overall.n) {
+        let Worst { x, output, .. } = of(row);
+        writeln!(out, "  {:13}  at n = {}, x = {x:#x}, output {output:#x}", "", row.n)?;
+    }
     Ok(())
 }
 
