@@ -70,7 +70,9 @@ fn holds_fixed(interval: Interval, value: &BigInt) -> bool {
 }
 
 fn holds_between(interval: Interval, low: &BigInt, high: &BigInt) -> bool {
-    Dyadic::new(interval.low()).fixed() <= *low && Dyadic::new(interval.high()).fixed() >= *high
+    let fixed = |m: &BigInt| Dyadic { m: m.clone(), e: -PLACES };
+    Dyadic::new(interval.low()).at_most(&fixed(low))
+        && fixed(high).at_most(&Dyadic::new(interval.high()))
 }
 
 /// Σ a_k·t^k, k up to 500, in units of 2^−PLACES; `next` turns the term t^k·c_k into t^(k+1)·c_(k+1) by a

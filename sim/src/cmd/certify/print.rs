@@ -283,7 +283,9 @@ mod tests {
         assert_eq!(shortened(0.005_544_539_929_021, true), "0.00554453993");
         assert_eq!(shortened(0.999_999_999_9, true), "1.00000000");
         assert_eq!(shortened(0.5, true), "0.500000000");
-        assert_eq!(shortened(1.5e-9, false), "1.50000000e-9");
+        // 2^−30 is 9.31322574615478515625e−10.
+        assert_eq!(shortened((-30.0_f64).exp2(), false), "9.31322574e-10");
+        assert_eq!(shortened((-30.0_f64).exp2(), true), "9.31322575e-10");
         assert_eq!(shortened(0.0, true), "0");
     }
 
