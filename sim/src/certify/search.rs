@@ -23,8 +23,8 @@ const GROWTH: f64 = 8.0;
 /// The absolute margin after the first failure.
 const NOISE: f64 = 1e-17;
 
-/// Proofs tried: the last has an absolute margin of 10⁻²·5 and a relative one of 10⁶.
-const ATTEMPTS: u32 = 14;
+/// Proofs tried: the last has an absolute margin of 2·10⁻¹¹ and a relative one of 1.
+const ATTEMPTS: u32 = 8;
 
 /// Restarts with a better witness.
 const RESTARTS: u32 = 64;
