@@ -23,8 +23,9 @@ const GROWTH: f64 = 8.0;
 /// The absolute margin after the first failure.
 const NOISE: f64 = 1e-17;
 
-/// Proofs tried: the last has an absolute margin of 2·10⁻¹¹ and a relative one of 1.
-const ATTEMPTS: u32 = 8;
+/// Proofs tried: the last has an absolute margin of 9·10⁻⁸. Boxes whose error is bounded to order w² must
+/// be narrower than the root of the margin, so that errors far below 10⁻⁹ take too many for a tighter one.
+const ATTEMPTS: u32 = 12;
 
 /// Restarts with a better witness.
 const RESTARTS: u32 = 64;
