@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs setup setup-all test rtl bench exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs setup setup-all test peers rtl bench exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -56,6 +56,10 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
 	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
+
+peers: ## the certified bounds beside Sollya's, where that is installed
+	$(CARGO) build --release --locked --quiet --bin blysk
+	@tests/peers/supnorm.py --blysk "$(BLYSK)"
 
 bench: ## measure speed
 	$(CARGO) bench --package sim --bench throughput --locked

@@ -2,8 +2,10 @@
 
 pub mod agreement;
 pub mod analysis;
+pub mod certify;
 pub mod cmd;
 pub mod document;
+pub mod interval;
 pub mod pipeline;
 pub mod plot;
 pub mod report;

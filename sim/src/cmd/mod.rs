@@ -3,6 +3,7 @@
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
 //! not the expected one; 2 a usage, configuration, input or output error.
 
+mod certify;
 mod check;
 mod claims;
 mod coefficients;
@@ -39,6 +40,7 @@ enum Command {
     Vectors(vectors::Args),
     Rtl(rtl::Args),
     Check(check::Args),
+    Certify(certify::Args),
     Simulate(simulate::Args),
     Claims(claims::Args),
     Coefficients(coefficients::Args),
@@ -106,6 +108,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Vectors(args) => vectors::run(&args, out),
         Command::Rtl(args) => rtl::run(&args, out),
         Command::Check(args) => check::run(&args, out),
+        Command::Certify(args) => certify::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),

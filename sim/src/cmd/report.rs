@@ -66,7 +66,7 @@ struct Subject {
 /// The most samples of an exhaustive report, 2^40: hours of work.
 const MOST_SAMPLES: u64 = 1 << 40;
 
-fn bound(text: &str) -> Result<f64, String> {
+pub(super) fn bound(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(bound) if bound > 0.0 && bound <= 1.0 => Ok(bound),
         _ => Err("use a number above 0 and at most 1, such as 0.0067 for 0.67 %".to_owned()),
@@ -118,7 +118,7 @@ fn measure(args: &Args, design: &Design, directory: Option<&Path>) -> anyhow::Re
     let options = Options { bound: args.bound, exhaustive: args.exhaustive };
     let bar = Bar::new(args.exhaustive.then_some(samples));
     let report = error_report(design, options, &bar)?;
-    bar.0.finish_and_clear();
+    bar.finish();
     if let Some(mut set) = set {
         files::write(&mut set, design, &report, curves)?;
         set.commit()?;
@@ -139,7 +139,7 @@ fn curves_exponent(asked: Option<f64>, design: &Design) -> anyhow::Result<f64> {
 }
 
 /// A progress bar on standard error, where that is a terminal.
-pub(super) struct Bar(pub(super) ProgressBar);
+pub(super) struct Bar(ProgressBar);
 
 impl Bar {
     pub(super) fn new(samples: Option<u64>) -> Self {
@@ -153,6 +153,11 @@ impl Bar {
             }
             _ => Self(ProgressBar::hidden()),
         }
+    }
+
+    /// The work is done: nothing of the bar stays.
+    pub(super) fn finish(&self) {
+        self.0.finish_and_clear();
     }
 }
 

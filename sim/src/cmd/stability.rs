@@ -117,7 +117,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         if args.part.has(Part::Seams) {
             let bar = Bar::new(Some(pairs(design, &addresses)));
             let report = seam_report(design, &addresses, &bar);
-            bar.0.finish_and_clear();
+            bar.finish();
             session.show(&report, tables::seams)?;
         }
     }

@@ -4,11 +4,13 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 10] = [
+const COMMANDS: [&str; 12] = [
     "report",
     "vectors",
     "rtl",
     "check",
+    "certify",
+    "claims",
     "simulate",
     "coefficients",
     "rom",

@@ -3,6 +3,7 @@
 //! Nothing here looks inside the command. What is expected comes from the golden model, from the
 //! table of 32-digit values, or from arithmetic done here.
 
+mod certify;
 mod check;
 mod coefficients;
 mod help;

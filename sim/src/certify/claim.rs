@@ -1,0 +1,150 @@
+//! What is claimed, and what proves it.
+
+use hw_model::fit::{Levels, Method};
+use serde::{Deserialize, Serialize};
+
+/// Which x.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Region {
+    /// x from q to 1, where x^n ≥ Q.
+    Epicentre,
+    /// x from 0 to q.
+    Tail,
+}
+
+impl Region {
+    /// The regions that a method is made for.
+    #[must_use]
+    pub const fn of(method: Method) -> &'static [Self] {
+        match method {
+            Method::Hermite | Method::ThreePoint | Method::Tangent | Method::Quadratic => {
+                &[Self::Epicentre]
+            }
+            Method::Rational => &[Self::Tail],
+            Method::Composite | Method::Schlick => &[Self::Epicentre, Self::Tail],
+        }
+    }
+
+    /// As in files and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Epicentre => "epicentre",
+            Self::Tail => "tail",
+        }
+    }
+}
+
+/// Which error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    /// |f − x^n|.
+    Absolute,
+    /// |f/x^n − 1|.
+    Relative,
+}
+
+/// A point at which the error is at least the lower bound.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Witness {
+    /// h = 1/n where the claim is for every n; 0 is the limit n → ∞.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub h: Option<f64>,
+    /// σ = −n·ln x.
+    pub sigma: f64,
+}
+
+/// lower ≤ max |e| ≤ upper, with the proof of both.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Enclosure {
+    /// Not more than the maximum.
+    pub lower: f64,
+    /// Not less than the maximum.
+    pub upper: f64,
+    /// Where the error is at least `lower`.
+    pub witness: Witness,
+    /// Tails: where the partition ends. Beyond, σ ≥ far, f and x^n are both below `upper`.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub far: Option<f64>,
+    /// The boxes over each of which the error is at most `upper`, as [`super::partition`] writes them.
+    pub partition: String,
+}
+
+impl Enclosure {
+    /// Its width over its lower end.
+    #[must_use]
+    pub fn relative_width(&self) -> f64 {
+        (self.upper - self.lower) / self.lower
+    }
+}
+
+/// The maximum of an error.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Finding {
+    /// It is zero: the curve is x^n itself ([`super::curve::is_exact`]).
+    Exact,
+    /// It lies between two numbers.
+    Enclosed(Enclosure),
+}
+
+impl Finding {
+    /// Not more than the maximum.
+    #[must_use]
+    pub const fn lower(&self) -> f64 {
+        match self {
+            Self::Exact => 0.0,
+            Self::Enclosed(enclosure) => enclosure.lower,
+        }
+    }
+
+    /// Not less than the maximum.
+    #[must_use]
+    pub const fn upper(&self) -> f64 {
+        match self {
+            Self::Exact => 0.0,
+            Self::Enclosed(enclosure) => enclosure.upper,
+        }
+    }
+}
+
+/// One method at one exponent.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExponentClaim {
+    /// The method.
+    pub method: Method,
+    /// n.
+    pub n: f64,
+    /// Which x.
+    pub region: Region,
+    /// max |f − x^n|.
+    pub absolute: Finding,
+    /// max |f/x^n − 1|; none on a tail, where it has no bound.
+    pub relative: Option<Finding>,
+}
+
+/// One method at every real exponent n ≥ 1, on the epicentre.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EveryClaim {
+    /// The method.
+    pub method: Method,
+    /// sup |f − x^n|.
+    pub absolute: Enclosure,
+    /// sup |f/x^n − 1|.
+    pub relative: Enclosure,
+}
+
+/// Claims about methods, all with the same levels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Claims<T> {
+    /// Q and G.
+    pub levels: Levels,
+    /// One after the other.
+    pub claims: Vec<T>,
+}

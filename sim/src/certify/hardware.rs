@@ -1,0 +1,217 @@
+//! The bound of a configuration as bits, by exhaustion: every representable x in [0, 1] of every ROM row.
+//!
+//! Not by the sum of approximation, coefficient and data-path error, which is above the truth by what
+//! these three cancel. The reference is x^n correctly rounded, off by half an ulp of a number that is at
+//! most 1: 2⁻⁵⁴. The difference of two f64 is rounded to the nearest as well, by at most 2⁻⁵⁴ again. So
+//! the greatest of all differences that the sweep computes, and 2⁻⁵³, is not less than the greatest error.
+//! (Where the sweep spares the reference, it does so for points that cannot exceed what was seen; it is not
+//! believed: `hardware_check.rs` looks at every x again, in another way.)
+
+use hw_model::config::Config;
+use hw_model::design::Design;
+use hw_model::fit::FitError;
+use hw_model::highlight::{ExactPower, phong};
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use crate::analysis::error_report::{
+    ErrorRow, Options, Progress, error_report, exhaustive_samples,
+};
+use crate::interval::Interval;
+
+/// x and intensity of at most this many bits are f64, exactly.
+const EXACT_BITS: u32 = 53;
+
+/// The most points, 2^40: hours of work.
+const MOST_POINTS: u64 = 1 << 40;
+
+/// More than what the sweep's errors can be short of the truth, 2⁻⁵³, by as much again: the checker's
+/// enclosures of a power reach to both its neighbours.
+const SWEEP_ERROR: f64 = f64::EPSILON;
+
+/// The greatest error of a row over some x.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Worst {
+    /// Not more than the greatest error: the error at `x`, rounded down.
+    pub lower: f64,
+    /// Not less than the greatest error.
+    pub upper: f64,
+    /// Where, as bits of the input.
+    pub x: i64,
+    /// What the hardware answers there, as bits of the output.
+    pub output: i64,
+}
+
+/// One ROM row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HardwareRow {
+    /// n.
+    pub n: f64,
+    /// The least x of the epicentre, as bits of the input.
+    pub epicentre_from: i64,
+    /// Over the epicentre.
+    pub epicentre: Worst,
+    /// Over all of [0, 1].
+    pub full_range: Worst,
+}
+
+/// The greatest error of all rows.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Overall {
+    /// The exponent of the row that has it (the first one).
+    pub n: f64,
+    /// Its lower bound.
+    pub lower: f64,
+    /// Its upper bound.
+    pub upper: f64,
+}
+
+/// The bound of a configuration.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HardwareClaim {
+    /// The whole configuration: hardware follows from it, bit for bit.
+    pub configuration: Config,
+    /// Points, all rows together.
+    pub points: u64,
+    /// Over the epicentres.
+    pub epicentre: Overall,
+    /// Over all of [0, 1].
+    pub full_range: Overall,
+    /// In the order of the addresses.
+    pub rows: Vec<HardwareRow>,
+}
+
+/// Why a configuration has no certificate.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum HardwareError {
+    /// Its numbers are no f64.
+    #[error("a certificate takes formats of at most {EXACT_BITS} fraction bits; {what} has {bits}")]
+    TooFine {
+        /// Input or output.
+        what: &'static str,
+        /// Its fraction bits.
+        bits: u32,
+    },
+    /// Exhaustion would take too long.
+    #[error(
+        "{points} points are more than {MOST_POINTS}; use a narrower input format or fewer exponents"
+    )]
+    TooMany {
+        /// Its points.
+        points: u64,
+    },
+    /// An exponent.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// There is no row.
+    #[error("there is no exponent to certify")]
+    NoRow,
+}
+
+/// The number of points that certifying the configuration takes, and checking it again.
+///
+/// # Errors
+/// When there can be no certificate.
+pub fn points(design: &Design) -> Result<u64, HardwareError> {
+    let config = design.config();
+    for (what, format) in [("input", config.input), ("output", config.output)] {
+        let bits = format.fraction_bits();
+        if bits > EXACT_BITS {
+            return Err(HardwareError::TooFine { what, bits });
+        }
+    }
+    match exhaustive_samples(design) {
+        points if points > MOST_POINTS => Err(HardwareError::TooMany { points }),
+        points => Ok(points),
+    }
+}
+
+/// Sweeps the whole configuration.
+///
+/// # Errors
+/// When there can be no certificate.
+pub fn certify_hardware(
+    design: &Design,
+    progress: &dyn Progress,
+) -> Result<HardwareClaim, HardwareError> {
+    let points = points(design)?;
+    let options = Options { bound: 1.0, exhaustive: true };
+    let report = error_report(design, options, progress)?;
+    let rows: Vec<HardwareRow> =
+        (0..).zip(&report.rows).map(|(address, row)| hardware_row(design, address, row)).collect();
+    Ok(HardwareClaim {
+        configuration: design.config().clone(),
+        points,
+        epicentre: overall(&rows, |row| row.epicentre).ok_or(HardwareError::NoRow)?,
+        full_range: overall(&rows, |row| row.full_range).ok_or(HardwareError::NoRow)?,
+        rows,
+    })
+}
+
+/// The row with the greatest upper bound, the first one where several have it.
+pub(super) fn overall(rows: &[HardwareRow], of: fn(&HardwareRow) -> Worst) -> Option<Overall> {
+    let worst =
+        rows.iter().reduce(|most, row| if of(row).upper > of(most).upper { row } else { most });
+    worst.map(|row| Overall { n: row.n, lower: of(row).lower, upper: of(row).upper })
+}
+
+fn hardware_row(design: &Design, address: u32, row: &ErrorRow) -> HardwareRow {
+    let ulp = design.config().input.ulp();
+    let worst = |error: f64, x: f64| {
+        // x is bits·ulp, and ulp a power of two.
+        let x = (x / ulp) as i64;
+        let output = design.datapath().evaluate(address, x).intensity;
+        let lower = least_error(design, row.n, x, output);
+        Worst { lower, upper: (error + SWEEP_ERROR).next_up().max(lower), x, output }
+    };
+    HardwareRow {
+        n: row.n,
+        epicentre_from: design.rows()[address as usize].first_of_epicentre(design.config()),
+        epicentre: worst(row.total_abs, row.total_x),
+        full_range: worst(row.full_range_abs, row.full_range_x),
+    }
+}
+
+/// x^n for x in bits of the input: the neighbours of the correctly rounded power.
+pub(super) fn power(design: &Design, n: f64, x: i64) -> Interval {
+    let power = phong(n, x as f64 * design.config().input.ulp());
+    Interval::new(power.next_down().max(0.0), power.next_up())
+}
+
+/// x^n as a ratio of integers, where that is possible.
+pub(super) fn exact_power(design: &Design, n: f64, x: i64) -> Option<ExactPower> {
+    let integer = n.fract() == 0.0 && n <= f64::from(u32::MAX);
+    let exponent = integer.then_some(n as u32)?;
+    ExactPower::new(u64::try_from(x).ok()?, design.config().input.fraction_bits(), exponent).ok()
+}
+
+/// |output − x^n| rounded down: exactly for an integer n of moderate size, else in intervals.
+pub(super) fn least_error(design: &Design, n: f64, x: i64, output: i64) -> f64 {
+    let format = design.config().output;
+    if let Some(exact) = exact_power(design, n, x) {
+        return exact.error_of_bits(output, format.fraction_bits()).abs().next_down().max(0.0);
+    }
+    (Interval::exactly(output as f64 * format.ulp()) - power(design, n, x)).least_magnitude()
+}
+
+impl HardwareClaim {
+    pub(super) fn statement(&self) -> String {
+        let Self { configuration, points, epicentre, full_range, rows } = self;
+        format!(
+            "Over all {points} points (every x in [0, 1] of the input format {}, every one of {} \
+             exponents), the output bits of the configuration differ from the real x^n by at most {} \
+             where x^n >= {}, and by at most {} on all of [0, 1]. By exhaustion, against correctly \
+             rounded x^n, whose own error of at most 2^-54 is within the bound.",
+            configuration.input,
+            rows.len(),
+            epicentre.upper,
+            configuration.q,
+            full_range.upper
+        )
+    }
+}

@@ -1,0 +1,16 @@
+//! Rigorous bounds, and certificates of them that can be checked without trusting the search.
+//!
+//! Methods with real coefficients: the maximum of the error over the continuous x, between two numbers,
+//! for one exponent or for every real n ≥ 1 at once. [`curve`] writes the methods in variables in which
+//! they stay smooth for n → ∞, [`error`] bounds the error over a box by intervals, [`search`] finds the
+//! boxes, [`check`] looks at them again. Configurations: [`hardware`].
+
+pub mod certificate;
+pub mod check;
+pub mod claim;
+pub mod curve;
+pub mod error;
+pub mod hardware;
+mod hardware_check;
+pub mod partition;
+pub mod search;

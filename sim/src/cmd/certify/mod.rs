@@ -1,0 +1,232 @@
+//! `blysk certify`: rigorous bounds, and certificates.
+
+mod print;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use anyhow::Context;
+use clap::Args as ClapArgs;
+use hw_model::design::Design;
+use hw_model::exponents::Exponents;
+use hw_model::fit::{Levels, Method, UnknownMethod};
+use rayon::prelude::*;
+use vectors::whole_file::WholeFile;
+
+use super::configuration::{find_preset, load_config};
+use super::report::{Bar, bound};
+use super::table::Format;
+use super::{Out, Outcome};
+use crate::certify::certificate::{Certificate, Claim};
+use crate::certify::check::{Checked, check};
+use crate::certify::claim::{Claims, Region};
+use crate::certify::hardware::{certify_hardware, points};
+use crate::certify::search::{claim_every_exponent, claim_exponent};
+
+/// Enclose the greatest error rigorously, and write or check a certificate of it.
+///
+/// Methods, real coefficients, by interval arithmetic: max |f - x^n| and max |f/x^n - 1| over every real
+/// x of a region, between two numbers 10^-6 apart (relative), for each exponent (--exponents) or for every
+/// real n >= 1 at once (--all-real-n). Regions: the epicentre, x^n >= Q; for rational, composite and
+/// schlick also the tail, x^n <= Q, where the relative error has no bound. The greater of both is that of
+/// all [0, 1]. Configurations (--preset, --config), by exhaustion: every representable x of every row.
+/// --check looks at a certificate again without the search. Exit status: 0 done, accepted; 1 a bound is
+/// exceeded, or the certificate is refused; 2 an error.
+#[derive(ClapArgs)]
+#[command(after_help = "Examples: blysk certify --method all --exponents 1..=64\n          \
+                        blysk certify --all-real-n --bound 0.00555 --out hermite.json\n          \
+                        blysk certify --check hermite.json\n          \
+                        blysk certify --config mine.json --out mine-certificate.json")]
+pub(super) struct Args {
+    #[command(flatten)]
+    subject: Subject,
+    /// hermite, three_point, tangent, quadratic, rational, composite, schlick, or all
+    /// [default: hermite with --all-real-n, else all].
+    #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"])]
+    method: Option<Methods>,
+    /// Q, the level where the epicentre ends.
+    #[arg(long, default_value_t = Levels::default().q(), conflicts_with_all = ["preset", "config", "check"])]
+    q: f64,
+    /// G, the lower level of three_point.
+    #[arg(long, default_value_t = Levels::default().g(), conflicts_with_all = ["preset", "config", "check"])]
+    g: f64,
+    /// Exit with status 1 unless the absolute error on the epicentre is proved to be at most this.
+    #[arg(long, value_parser = bound, conflicts_with = "check")]
+    bound: Option<f64>,
+    /// Write the certificate, a JSON file.
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    out: Option<PathBuf>,
+    /// What to print: a summary (table), or every row (csv, json).
+    #[arg(long, value_enum, default_value_t, conflicts_with = "check")]
+    format: Format,
+}
+
+#[derive(ClapArgs)]
+#[group(required = true, multiple = false)]
+struct Subject {
+    /// Methods at these exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
+    #[arg(long, value_name = "LIST")]
+    exponents: Option<Exponents>,
+    /// Methods at every real n >= 1, the limit included, on the epicentre.
+    #[arg(long)]
+    all_real_n: bool,
+    /// A preset, down to its bits; `blysk presets` lists them.
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// Check this certificate.
+    #[arg(long, value_name = "FILE")]
+    check: Option<PathBuf>,
+}
+
+/// One method, or all of them.
+#[derive(Debug, Clone)]
+struct Methods(Vec<Method>);
+
+impl FromStr for Methods {
+    type Err = String;
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "all" {
+            return Ok(Self(Method::ALL.to_vec()));
+        }
+        let one = |method| Self(vec![method]);
+        text.parse().map(one).map_err(|error: UnknownMethod| format!("{error}, or all"))
+    }
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    if let Some(path) = &args.subject.check {
+        return check_file(path, out);
+    }
+    // Made before the work, so that an unwritable place is found at once.
+    let file = args.out.as_ref().map(WholeFile::create).transpose()?;
+    let claim = claim(args)?;
+    let certificate = Certificate::new(claim);
+    if let Some(mut file) = file {
+        file.write_all(certificate.to_json().as_bytes()).map_err(|error| file.error(error))?;
+        file.commit()?;
+    }
+    print::claim(certificate.claim(), args.format, out)?;
+    if let (Some(path), Format::Table) = (&args.out, args.format) {
+        writeln!(out, "\nwritten to {}", path.display())?;
+    }
+    match args.bound {
+        Some(bound) => verdict(bound, certificate.claim(), args.format, out),
+        None => Ok(Outcome::Good),
+    }
+}
+
+fn claim(args: &Args) -> anyhow::Result<Claim> {
+    let Subject { exponents, all_real_n, preset, config, .. } = &args.subject;
+    if let Some(name) = preset {
+        return hardware(Design::new(find_preset(name)?.config()?).with_context(|| name.clone())?);
+    }
+    if let Some(path) = config {
+        let design = Design::new(load_config(path)?);
+        return hardware(design.with_context(|| path.display().to_string())?);
+    }
+    let levels = Levels::new(args.q, args.g)?;
+    if *all_real_n {
+        return every_exponent(args.method.as_ref(), levels);
+    }
+    // clap demands one of them.
+    let exponents =
+        exponents.as_ref().context("say --exponents, --all-real-n, --preset or --config")?;
+    let methods = args.method.as_ref().map_or(&Method::ALL[..], |methods| &methods.0);
+    let pairs = methods.iter().flat_map(|&method| {
+        Region::of(method).iter().flat_map(move |&region| {
+            exponents.iter().map(move |exponent| (method, region, exponent))
+        })
+    });
+    let claims = pairs
+        .collect::<Vec<_>>()
+        .into_par_iter()
+        .map(|(method, region, exponent)| {
+            claim_exponent(method, exponent, region, levels)
+                .with_context(|| format!("{method}, n = {exponent}, {}", region.name()))
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(Claim::Exponents(Claims { levels, claims }))
+}
+
+/// A tail reaches to x = 0 for every n, and has no bounded box: epicentres only.
+fn every_exponent(methods: Option<&Methods>, levels: Levels) -> anyhow::Result<Claim> {
+    let methods = methods.map_or(&[Method::Hermite][..], |methods| &methods.0);
+    let on_epicentre = |&&method: &&Method| Region::of(method).contains(&Region::Epicentre);
+    let chosen: Vec<Method> = methods.iter().filter(on_epicentre).copied().collect();
+    anyhow::ensure!(
+        !chosen.is_empty(),
+        "--all-real-n: rational is made for the tail; choose a method that is made for the epicentre"
+    );
+    let claims = chosen
+        .into_par_iter()
+        .map(|method| claim_every_exponent(method, levels).with_context(|| method.to_string()))
+        .collect::<Result<_, _>>()?;
+    Ok(Claim::EveryExponent(Claims { levels, claims }))
+}
+
+fn hardware(design: Design) -> anyhow::Result<Claim> {
+    let bar = Bar::new(Some(points(&design)?));
+    let claim = certify_hardware(&design, &bar)?;
+    bar.finish();
+    Ok(Claim::Hardware(Box::new(claim)))
+}
+
+/// Every absolute error on an epicentre against the bound.
+fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<Outcome> {
+    let greatest = match claim {
+        Claim::Exponents(Claims { claims, .. }) => claims
+            .iter()
+            .filter(|claim| claim.region == Region::Epicentre)
+            .map(|claim| claim.absolute.upper())
+            .fold(0.0, f64::max),
+        Claim::EveryExponent(Claims { claims, .. }) => {
+            claims.iter().map(|claim| claim.absolute.upper).fold(0.0, f64::max)
+        }
+        Claim::Hardware(claim) => claim.epicentre.upper,
+    };
+    let holds = greatest <= bound;
+    if format == Format::Table {
+        let said = if holds { "proved" } else { "NOT PROVED" };
+        writeln!(out, "absolute error on the epicentre at most {bound}: {said}")?;
+    }
+    Ok(if holds { Outcome::Good } else { Outcome::Fails })
+}
+
+fn check_file(path: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
+    let shown = path.display();
+    let text =
+        fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
+    let certificate = Certificate::parse(&text).with_context(|| shown.to_string())?;
+    let work = match certificate.claim() {
+        Claim::Hardware(claim) => Some(claim.points),
+        _ => None,
+    };
+    let bar = Bar::new(work);
+    let result = check(&certificate, &text, &bar);
+    bar.finish();
+    match result {
+        Ok(checked) => {
+            super::table::write_folded(out, certificate.statement())?;
+            writeln!(out, "\nACCEPTED {}", looked_at(checked))?;
+            Ok(Outcome::Good)
+        }
+        Err(refused) => {
+            super::table::write_folded(out, &format!("REFUSED {refused}"))?;
+            Ok(Outcome::Fails)
+        }
+    }
+}
+
+fn looked_at(checked: Checked) -> String {
+    let Checked { enclosures, boxes, points } = checked;
+    if points > 0 {
+        format!("{points} points, each through the data path")
+    } else {
+        format!("{enclosures} enclosures, {boxes} boxes, each with its own interval evaluation")
+    }
+}
