@@ -3,6 +3,7 @@
 use hw_model::fit::{Levels, Method, fit};
 
 use super::comparison::{Comparison, Sense};
+use super::proof::{self, Enclosed};
 use super::{Claim, ClaimsError};
 use crate::analysis::approximation::{ApproximationError, Region, approximation};
 
@@ -28,6 +29,22 @@ fn relative(n: f64) -> Result<f64, ClaimsError> {
 fn times(other: f64, n: f64) -> Result<f64, ClaimsError> {
     let cubic = absolute(n)?;
     Ok(if cubic < NOISE { f64::INFINITY } else { other / cubic })
+}
+
+/// The relative error in per cent between two proved numbers.
+fn relative_enclosure(n: f64) -> Result<Enclosed, ClaimsError> {
+    // An epicentre always has a relative error.
+    let bounds = proof::epicentre(Method::Hermite, n)?.relative;
+    let found =
+        bounds.as_ref().map_or((0.0, f64::INFINITY), |bounds| (bounds.lower(), bounds.upper()));
+    Ok(Enclosed { lower: 100.0 * found.0, upper: 100.0 * found.1 })
+}
+
+/// How many times the cubic's error goes into Schlick's, between two proved numbers.
+fn schlick_enclosure(n: f64) -> Result<Enclosed, ClaimsError> {
+    let schlick = proof::epicentre(Method::Schlick, n)?.absolute;
+    let cubic = proof::epicentre(Method::Hermite, n)?.absolute;
+    Ok(Enclosed { lower: schlick.lower() / cubic.upper(), upper: schlick.upper() / cubic.lower() })
 }
 
 pub(super) fn claims() -> Result<[Claim; 4], ClaimsError> {
@@ -76,9 +93,9 @@ pub(super) fn claims() -> Result<[Claim; 4], ClaimsError> {
         },
     };
     Ok([
-        absolute_error.judged()?,
-        relative_error.judged()?,
-        schlick_epicentre.judged()?,
+        proof::for_every_exponent(absolute_error.judged()?, absolute_error.limit)?,
+        proof::at_the_boundary(relative_error.judged()?, &relative_error, relative_enclosure)?,
+        proof::at_the_boundary(schlick_epicentre.judged()?, &schlick_epicentre, schlick_enclosure)?,
         schlick_whole.judged()?,
     ])
 }

@@ -31,7 +31,7 @@ pub(super) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    fn holds(&self, value: f64) -> bool {
+    pub(super) fn holds(&self, value: f64) -> bool {
         match self.sense {
             Sense::AtMost => value <= self.limit,
             Sense::AtLeast => value >= self.limit,

@@ -2,13 +2,15 @@
 //!
 //! A claim about exponents is judged for all of them: from which n it fails is found by bisection over
 //! the integers up to [`GREATEST`], and the answer is then held against every n up to [`EXAMINED`] and
-//! every power of two above. A claim about a printed formula is judged by what the formula gives.
+//! every power of two above. Where the answer rests on the error of a method on its epicentre, the
+//! enclosures of [`crate::certify`] must say the same at the last n and at the next. A claim about a printed formula is judged by what the formula gives.
 
 mod accuracy;
 mod boundary;
 mod comparison;
 mod operations;
 mod printed;
+mod proof;
 mod shape;
 mod tail;
 
@@ -17,6 +19,8 @@ use std::fmt;
 use hw_model::fit::FitError;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
+
+use crate::certify::search::NotProved;
 
 pub use boundary::{EXAMINED, GREATEST};
 
@@ -110,6 +114,22 @@ pub enum ClaimsError {
         /// What the bisection says of it.
         expected: bool,
     },
+    /// Interval arithmetic does not confirm what was computed.
+    #[error(
+        "claim {claim}: computed one way it {} at n = {n}, and the proved bounds of the same number do not say so",
+        if *.holds { "holds" } else { "fails" }
+    )]
+    NotConfirmed {
+        /// The claim.
+        claim: &'static str,
+        /// The exponent; infinite for all at once.
+        n: f64,
+        /// What was computed.
+        holds: bool,
+    },
+    /// A bound cannot be proved.
+    #[error(transparent)]
+    NotProved(#[from] NotProved),
     /// A method refuses an exponent.
     #[error(transparent)]
     Fit(#[from] FitError),

@@ -12,6 +12,10 @@ struct Tally {
     additions: Cell<u32>,
 }
 
+fn count_one(of: &Cell<u32>) {
+    of.set(of.get() + 1);
+}
+
 /// A number that adds to the tally what is done with it.
 #[derive(Clone, Copy)]
 struct Counted<'a>(&'a Tally);
@@ -19,7 +23,7 @@ struct Counted<'a>(&'a Tally);
 impl Mul for Counted<'_> {
     type Output = Self;
     fn mul(self, _: Self) -> Self {
-        self.0.multiplications.set(self.0.multiplications.get() + 1);
+        count_one(&self.0.multiplications);
         self
     }
 }
@@ -27,7 +31,7 @@ impl Mul for Counted<'_> {
 impl Add for Counted<'_> {
     type Output = Self;
     fn add(self, _: Self) -> Self {
-        self.0.additions.set(self.0.additions.get() + 1);
+        count_one(&self.0.additions);
         self
     }
 }

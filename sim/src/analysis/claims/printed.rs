@@ -182,11 +182,11 @@ fn core_angle(at: Crossing) -> f64 {
 
 /// q = e^(−0.6931471/n) has q^n = e^(−0.6931471), whatever n.
 fn logarithm() -> Claim {
-    /// ln 2 as printed.
-    const PRINTED: f64 = 0.693_147_1;
+    /// ln 2 in units of 10⁻⁷, as printed.
+    const PRINTED: f64 = 6_931_471.0;
     /// A hundredth of the last bit of a 16-bit intensity.
     const LIMIT: f64 = 0.01 / 32_768.0;
-    let off = ((-PRINTED).exp() - Levels::default().q()).abs();
+    let off = ((-PRINTED / 1e7).exp() - Levels::default().q()).abs();
     Claim {
         id: "logarithm",
         claim: "q = e^(-0.6931471/n) is where cos^n = 0.5",
