@@ -244,7 +244,9 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
     let Some(cubic) = &real.polynomial else {
         return Ok(());
     };
-    let greatest_u = 2.0 - 1.0 / 128.0;
+    // Only where the multipliers are narrow.
+    let greatest_u =
+        if config.multiplier_operand_bits.is_some() { 2.0 - 1.0 / 128.0 } else { f64::INFINITY };
     let s = match config.cut {
         Cut::Epicentre => real.epicentre,
         Cut::Minimum => cubic

@@ -27,5 +27,5 @@ pub mod tail;
 
 pub use block::Block;
 pub use keep::Damage;
-pub use ranks::Datapath;
+pub use ranks::{Datapath, register_name};
 pub use signals::{Register, Signals, Status};

@@ -41,6 +41,18 @@ pub struct Datapath {
     pub(crate) narrow: bool,
 }
 
+/// The name of a register with the name of its rank in front: `stage1.t1`. A register of the divider has the
+/// divider's name there, also where a multiply-add stage gives the rank its own: `tail0.divisor`.
+#[must_use]
+pub fn register_name(rank: usize, rank_name: &str, register: &str) -> String {
+    match register {
+        "divisor" | "remainder" | "digits" => {
+            format!("tail{}.{register}", rank.saturating_sub(HEAD_RANKS))
+        }
+        _ => format!("{rank_name}.{register}"),
+    }
+}
+
 impl Datapath {
     /// The ROM.
     #[must_use]
@@ -104,16 +116,10 @@ impl Datapath {
         }
     }
 
-    /// The name of a register of a rank: `stage1.t1`. A register of the divider has the divider's name also
-    /// where a multiply-add stage gives the rank its own: `tail0.divisor`.
+    /// The name of a register of a rank, with its part's in front: see [`register_name`].
     #[must_use]
     pub fn register_name(&self, rank: usize, register: &Register) -> String {
-        match register.name {
-            "divisor" | "remainder" | "digits" => {
-                format!("tail{}.{}", rank - HEAD_RANKS, register.name)
-            }
-            name => format!("{}.{name}", self.rank_name(rank)),
-        }
+        register_name(rank, &self.rank_name(rank), register.name)
     }
 
     /// What rank 0 takes in: address, x, and the ROM word.

@@ -18,6 +18,7 @@ mod verdict;
 
 use std::path::Path;
 
+use hw_model::datapath::register_name;
 use hw_model::format::QFormat;
 
 use crate::manifest::{Manifest, TABLE};
@@ -83,7 +84,7 @@ fn columns(manifest: &Manifest) -> Vec<Column> {
     let registers = (0..).zip(ranks).flat_map(|(rank, list)| {
         let computed = list.registers.iter().filter(|register| register.computed);
         computed.map(move |register| {
-            let name = format!("{}.{}", list.name, register.name);
+            let name = register_name(rank, &list.name, &register.name);
             // The table does not say twice what a port shows.
             let table = match register.name.as_str() {
                 "x" if rank == 0 => "x_bits",

@@ -102,7 +102,7 @@ fn overflow(datapath: &Datapath, fetched: Signals) -> Option<String> {
             register.computed && !register.format.holds((register.bits)(&held).into())
         });
         if let Some(register) = wrong {
-            return Some(format!("{}.{}", datapath.rank_name(rank), register.name));
+            return Some(datapath.register_name(rank, register));
         }
     }
     None
