@@ -3,7 +3,8 @@
 //! Every coefficient is computed in numbers of 106 bits and rounded once, with functions that give
 //! the same bits on every platform; see `double_double` for why. For levels from 10⁻⁹ to 1 − 10⁻⁶
 //! the result is the nearest f64 or, in a near tie, its neighbour, for any n: also close to an n at
-//! which a coefficient vanishes, and with G close to Q. Q → 1 costs digits only beyond 1 − 10⁻¹⁰ (there
+//! which a coefficient vanishes (c of `hermite` at the f64 next above 3 is off by six roundings, the worst that
+//! `blysk stability` found), and with G close to Q. Q → 1 costs digits only beyond 1 − 10⁻¹⁰ (there
 //! the error is still below 10⁻¹⁵). For Q below 10⁻⁹, b, c and d, which tend to 0 there while k1, k2,
 //! k3 do not, are accurate to 10⁻³¹ of the greatest coefficient, and not relative to themselves.
 //!
