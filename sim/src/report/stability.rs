@@ -268,7 +268,11 @@ impl Part for EdgeReport {
             points
         };
         let mut series = vec![
-            Series::new("proved bound, as configured", worst(|row| row.bound_ulp, &own), Mark::Dashed),
+            Series::new(
+                "proved bound, as configured",
+                worst(|row| row.bound_ulp, &own),
+                Mark::Dashed,
+            ),
             Series::new("as configured", worst(|row| row.method_ulp, &own), Mark::Points),
         ];
         for variant in self.variants.iter().filter(|variant| variant.name.starts_with("rounding")) {
