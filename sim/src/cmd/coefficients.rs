@@ -20,7 +20,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "METHOD")]
     method: Method,
     /// Such as 1..=256, 1,2,8,64 or 2.5,1e6.
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Exponents,
     /// Q, the level where the epicentre ends.
     #[arg(long, default_value_t = Levels::default().q())]

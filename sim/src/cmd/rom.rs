@@ -25,7 +25,7 @@ pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
     /// Only these exponents.
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
     /// How to print.
     #[arg(long, value_enum, default_value_t)]

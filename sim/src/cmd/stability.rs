@@ -40,7 +40,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value_t)]
     part: Part,
     /// Exponents of the configuration that edges and seams look at (default: all).
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
     /// Random cases of the part reference.
     #[arg(long, value_name = "COUNT", default_value_t = 20_000,

@@ -97,8 +97,9 @@ pub(super) fn conditioning(report: &Conditioning, out: &mut dyn Write) -> anyhow
     rows.print(out, Format::Table, SHORT)?;
     writeln!(
         out,
-        "\nWidths for a faithful result, hermite, exponents 1 to n: stored coefficient bits, the widest\n\
-         multiplier, partial products of all three; x as wide as the result and n together\n"
+        "\nWidths for a faithful result, hermite, exponents 1 to n (three in each octave of them):\n\
+         stored coefficient bits, the widest multiplier, partial products of all three; x as wide as the\n\
+         result and n together\n"
     )?;
     let mut rows = Rows::new(&[
         "result",
@@ -327,7 +328,8 @@ fn place(row: &SeamRow, x: Option<f64>) -> String {
 pub(super) fn reference(report: &ReferenceReport, out: &mut dyn Write) -> anyhow::Result<()> {
     writeln!(
         out,
-        "x^n in f64 against exact integers: structured cases, and {} drawn from seed {}\n",
+        "x^n in f64 against exact integers, n up to 65 536, integers, halves and quarters of them (no exact\n\
+         integers exist for others): structured cases, and {} drawn from seed {}\n",
         report.random_samples, report.seed
     )?;
     let mut rows =

@@ -30,6 +30,23 @@ fn every_real_exponent_at_once() {
     assert!(run.stdout.contains("NOT PROVED"), "{run:#?}");
 }
 
+/// A bound on the epicentre is not proved by what is said of tails, and what is accepted is shown.
+#[test]
+fn nothing_is_proved_of_nothing() {
+    let bench = bench!();
+    let tail = "certify --method rational --exponents 64 --bound 0.001 --out tail.json";
+    bench.refused(tail, &["--bound", "epicentre", "rational"]);
+    let _said = bench.good("certify --method rational --exponents 64 --out tail.json");
+    assert_eq!(bench.run("certify --check tail.json --bound 0.9").status, 1);
+    let _said = bench.good("certify --method hermite --exponents 3.0001,7 --out some.json");
+    let accepted = bench.good("certify --check some.json --bound 0.0021");
+    for said in ["0.00203390", "wider than", "ACCEPTED", "at most 0.0021: proved"] {
+        assert!(accepted.contains(said), "{said}: {accepted}");
+    }
+    assert_eq!(bench.run("certify --check some.json --bound 0.002").status, 1);
+    bench.refused("certify --exponents -3", &["exponent -3", "1 to 1e15"]);
+}
+
 /// Digits all over a certificate of each kind are made other ones; that every single one counts, the library's
 /// test of the seal shows.
 #[test]

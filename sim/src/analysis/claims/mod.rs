@@ -31,6 +31,8 @@ pub enum Verdict {
     Holds,
     /// True up to this integer exponent, and false from the next one on.
     HoldsTo(u64),
+    /// True for every integer exponent, and false for some between them.
+    HoldsForIntegers,
     /// False.
     Fails,
     /// A formula is printed otherwise than the text around it means it.
@@ -44,6 +46,7 @@ impl fmt::Display for Verdict {
         match self {
             Self::Holds => f.write_str("holds"),
             Self::HoldsTo(n) => write!(f, "holds for n <= {n}"),
+            Self::HoldsForIntegers => f.write_str("holds for integer n"),
             Self::Fails => f.write_str("does not hold"),
             Self::Misprint => f.write_str("misprint"),
             Self::NoFigure => f.write_str("no figure given"),

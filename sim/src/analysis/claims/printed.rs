@@ -92,7 +92,7 @@ impl Formula<'_> {
             claim: self.claim,
             source: self.source,
             computed,
-            holds_for: if verdict == Verdict::Holds { "every n" } else { "-" }.to_owned(),
+            holds_for: if verdict == Verdict::Holds { exponents } else { "-".to_owned() },
             fails_from: None,
             verdict,
             command: command(self.id),
@@ -103,7 +103,11 @@ impl Formula<'_> {
 
 /// The cubic of the fit, in power form, and where x^n = Q.
 fn fitted(method: Method, n: f64) -> Result<(Power, Crossing), ClaimsError> {
-    let fit = fit(method, n, Levels::default())?;
+    fitted_at(method, n, Levels::default())
+}
+
+fn fitted_at(method: Method, n: f64, levels: Levels) -> Result<(Power, Crossing), ClaimsError> {
+    let fit = fit(method, n, levels)?;
     let none = Power { a: 0.0, b: 0.0, c: 0.0, d: 0.0 };
     Ok((fit.cubic().map_or(none, |cubic| cubic.power), fit.epicentre))
 }
@@ -152,12 +156,18 @@ pub(super) fn hermite() -> Result<Vec<Claim>, ClaimsError> {
     };
     let any_level = Formula {
         id: "hermite-coefficients",
-        claim: "a and b as printed solve the system, for any Q",
+        claim: "a and b as printed solve the system, for any Q (tried: 0.3, 0.5, 0.8)",
         source: "8th and 9th formula",
         equation: "relative difference from the solution",
+        // Any Q: three of them, and exponents half-way between the integers too.
         printed: Remainders::over(|n| {
-            let (power, at) = fitted(Method::Hermite, n)?;
-            Ok(difference(hermite_printed(n, level, at.x), power))
+            let mut greatest = 0.0_f64;
+            for (level, n) in [(0.3, n), (0.5, n), (0.8, n), (0.3, n + 0.5), (0.8, n + 0.5)] {
+                let levels = Levels::new(level, Levels::default().g()).unwrap_or_default();
+                let (power, at) = fitted_at(Method::Hermite, n, levels)?;
+                greatest = greatest.max(difference(hermite_printed(n, levels.q(), at.x), power));
+            }
+            Ok(greatest)
         })?,
         meant: &[],
     };

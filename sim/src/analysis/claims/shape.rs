@@ -70,7 +70,11 @@ fn no_negative_zone() -> Result<Claim, ClaimsError> {
     let (at_fraction, fraction) = lowest(between(2), Method::ThreePoint, levels)?;
     let greatest = GREATEST as f64;
     let last = percent(Method::ThreePoint, levels, greatest)?;
-    let holds = integer >= 0.0;
+    let verdict = match (integer >= 0.0, fraction >= 0.0) {
+        (true, true) => Verdict::Holds,
+        (true, false) => Verdict::HoldsForIntegers,
+        (false, _) => Verdict::Fails,
+    };
     Ok(Claim {
         id: "negative-zone",
         claim: "With Q = 0.5 and G = 1/18 the function does not go below zero",
@@ -79,9 +83,13 @@ fn no_negative_zone() -> Result<Claim, ClaimsError> {
             "the value at its minimum is {integer:.3} % or more for integer n ({last:+.3} % at n = 10^9), but \
              {fraction:.3} % at n = {at_fraction:.3}"
         ),
-        holds_for: "every integer n; not between 2 and 3".to_owned(),
+        holds_for: match verdict {
+            Verdict::Holds => "every n that was tried".to_owned(),
+            Verdict::HoldsForIntegers => format!("every integer n; not n = {at_fraction:.3}"),
+            _ => format!("not n = {at_integer}"),
+        },
         fails_from: None,
-        verdict: if holds { Verdict::Holds } else { Verdict::Fails },
+        verdict,
         command: command("negative-zone"),
         evidence: vec![
             minimum(
@@ -120,11 +128,11 @@ fn optimal() -> Result<Claim, ClaimsError> {
         claim: "G = 1/18 is the best choice: the lowest level that needs no correction",
         source: "the paragraph after the 15th formula",
         computed: format!(
-            "1/{k} is the least 1/k that leaves no negative zone for n >= 3: {good:+.3} % at n = 10^9, with \
+            "1/{k} is the least 1/k that leaves no negative zone for integer n >= 3: {good:+.3} % at n = 10^9, with \
              1/{} {bad:+.3} %",
             k + 1
         ),
-        holds_for: "n >= 3".to_owned(),
+        holds_for: "integer n >= 3".to_owned(),
         fails_from: None,
         verdict: if one_over(k) == Levels::default() { Verdict::Holds } else { Verdict::Fails },
         command: command("optimal-level"),
@@ -165,10 +173,13 @@ fn extrema() -> Result<Claim, ClaimsError> {
             })
         })
         .collect();
-    let computed = match (found.first(), found.iter().find(|(n, _)| *n == 64)) {
-        (Some((first, _)), Some((n, (x, value)))) => format!(
+    let times_square = |&(n, (_, value)): &(u64, (f64, f64))| value / (n as f64 * n as f64);
+    let computed = match (found.first(), found.iter().find(|(n, _)| *n == 64), found.last()) {
+        (Some((first, _)), Some(shown @ (n, (x, value))), Some(last)) => format!(
             "from n = {first} on there is a second maximum below the minimum: {value:.1} at x = {x:.3} for \
-             n = {n}, growing as n^2; so the hardware needs a cut"
+             n = {n}, which is {:.4} n^2, and {:.4} n^2 at n = 10^9; so the hardware needs a cut",
+            times_square(shown),
+            times_square(last)
         ),
         _ => "there is no second maximum".to_owned(),
     };

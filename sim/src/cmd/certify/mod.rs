@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
@@ -28,7 +28,8 @@ use crate::certify::search::{claim_every_exponent, claim_exponent};
 /// Enclose the greatest error rigorously, and write or check a certificate of it.
 ///
 /// Methods, real coefficients, by interval arithmetic: max |f - x^n| and max |f/x^n - 1| over every real
-/// x of a region, between two numbers 10^-6 apart (relative), for each exponent (--exponents) or for every
+/// x of a region, between two numbers 10^-6 apart (relative; wider beside an n where the error vanishes,
+/// such as 3.0001 for hermite), for each exponent (--exponents) or for every
 /// real n >= 1 at once (--all-real-n). Regions: the epicentre, x^n >= Q; for rational, composite and
 /// schlick also the tail, x^n <= Q, where the relative error has no bound. The greater of both is that of
 /// all [0, 1]. Configurations (--preset, --config), by exhaustion: every representable x of every row.
@@ -53,7 +54,7 @@ pub(super) struct Args {
     #[arg(long, default_value_t = Levels::default().g(), conflicts_with_all = ["preset", "config", "check"])]
     g: f64,
     /// Exit with status 1 unless the absolute error on the epicentre is proved to be at most this.
-    #[arg(long, value_parser = bound, conflicts_with = "check")]
+    #[arg(long, value_parser = bound)]
     bound: Option<f64>,
     /// Write the certificate, a JSON file.
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
@@ -67,7 +68,7 @@ pub(super) struct Args {
 #[group(required = true, multiple = false)]
 struct Subject {
     /// Methods at these exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
-    #[arg(long, value_name = "LIST")]
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
     /// Methods at every real n >= 1, the limit included, on the epicentre.
     #[arg(long)]
@@ -100,7 +101,12 @@ impl FromStr for Methods {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if let Some(path) = &args.subject.check {
-        return check_file(path, out);
+        return check_file(path, args.bound, out);
+    }
+    if args.bound.is_some() && !args.has_epicentre() {
+        bail!(
+            "--bound is about the epicentre, and rational is made for the tail; choose another method"
+        );
     }
     // Made before the work, so that an unwritable place is found at once.
     let file = args.out.as_ref().map(WholeFile::create).transpose()?;
@@ -117,6 +123,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     match args.bound {
         Some(bound) => verdict(bound, certificate.claim(), args.format, out),
         None => Ok(Outcome::Good),
+    }
+}
+
+impl Args {
+    /// Whether anything is claimed of an epicentre. A preset or configuration has one.
+    fn has_epicentre(&self) -> bool {
+        let made_for = |&method: &Method| Region::of(method).contains(&Region::Epicentre);
+        self.method.as_ref().is_none_or(|methods| methods.0.iter().any(made_for))
     }
 }
 
@@ -183,13 +197,14 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
             .iter()
             .filter(|claim| claim.region == Region::Epicentre)
             .map(|claim| claim.absolute.upper())
-            .fold(0.0, f64::max),
+            .reduce(f64::max),
         Claim::EveryExponent(Claims { claims, .. }) => {
-            claims.iter().map(|claim| claim.absolute.upper).fold(0.0, f64::max)
+            claims.iter().map(|claim| claim.absolute.upper).reduce(f64::max)
         }
-        Claim::Hardware(claim) => claim.epicentre.upper,
+        Claim::Hardware(claim) => Some(claim.epicentre.upper),
     };
-    let holds = greatest <= bound;
+    // A claim about no epicentre proves nothing of one.
+    let holds = greatest.is_some_and(|greatest| greatest <= bound);
     if format == Format::Table {
         let said = if holds { "proved" } else { "NOT PROVED" };
         writeln!(out, "absolute error on the epicentre at most {bound}: {said}")?;
@@ -197,7 +212,8 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
     Ok(if holds { Outcome::Good } else { Outcome::Fails })
 }
 
-fn check_file(path: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
+/// What was accepted is shown in full: a certificate of [0, 9] is as true as one of a narrow interval.
+fn check_file(path: &Path, bound: Option<f64>, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text =
         fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
@@ -212,8 +228,13 @@ fn check_file(path: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
     match result {
         Ok(checked) => {
             super::table::write_folded(out, certificate.statement())?;
+            writeln!(out)?;
+            print::claim(certificate.claim(), Format::Table, out)?;
             writeln!(out, "\nACCEPTED {}", looked_at(checked))?;
-            Ok(Outcome::Good)
+            match bound {
+                Some(bound) => verdict(bound, certificate.claim(), Format::Table, out),
+                None => Ok(Outcome::Good),
+            }
         }
         Err(refused) => {
             super::table::write_folded(out, &format!("REFUSED {refused}"))?;

@@ -13,6 +13,9 @@ use crate::cmd::Out;
 /// More exponents than that are summed up in a table.
 const MOST_LISTED: usize = 24;
 
+/// The relative width that is promised where the error does not nearly vanish.
+const NARROW: f64 = 1e-6;
+
 /// Digits of a bound in a table.
 const DIGITS: usize = 9;
 
@@ -95,19 +98,36 @@ fn exponents_table(claims: &Claims<ExponentClaim>, out: &mut Out) -> anyhow::Res
     }
     rows.print(out, Format::Table, DIGITS)?;
     let found = claims.iter().flat_map(|claim| [Some(&claim.absolute), claim.relative.as_ref()]);
-    let (mut enclosures, mut exact, mut widest) = (0_u32, 0_u32, 0.0_f64);
+    let (mut narrow, mut wide, mut exact, mut widest) = (0_u32, 0_u32, 0_u32, 0.0_f64);
     for finding in found.flatten() {
         match finding {
             Finding::Exact => exact += 1,
-            Finding::Enclosed(enclosure) => {
-                enclosures += 1;
+            Finding::Enclosed(enclosure) if enclosure.relative_width() <= NARROW => {
+                narrow += 1;
                 widest = widest.max(enclosure.relative_width());
             }
+            Finding::Enclosed(_) => wide += 1,
         }
     }
-    writeln!(out, "\n{enclosures} enclosures, relative width at most {}", shortened(widest, true))?;
-    writeln!(out, "{exact} maxima are 0: the method gives x^n itself there")?;
+    writeln!(out)?;
+    if narrow > 0 {
+        writeln!(out, "{}, relative width at most {}", counted(narrow), shortened(widest, true))?;
+    }
+    if wide > 0 {
+        let counted = counted(wide);
+        writeln!(
+            out,
+            "{counted} wider than {NARROW:e}: the error nearly vanishes there (csv has each)"
+        )?;
+    }
+    if exact > 0 {
+        writeln!(out, "maxima that are 0, because the method gives x^n itself: {exact}")?;
+    }
     Ok(())
+}
+
+fn counted(enclosures: u32) -> String {
+    if enclosures == 1 { "1 enclosure".to_owned() } else { format!("{enclosures} enclosures") }
 }
 
 /// The claim with the greatest absolute error of each method and region.
