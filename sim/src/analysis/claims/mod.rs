@@ -16,7 +16,7 @@ mod tail;
 
 use std::fmt;
 
-use hw_model::fit::FitError;
+use hw_model::fit::{FitError, LevelsError};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
@@ -133,6 +133,9 @@ pub enum ClaimsError {
     /// A bound cannot be proved.
     #[error(transparent)]
     NotProved(#[from] NotProved),
+    /// Levels that a claim is tried at are none.
+    #[error(transparent)]
+    Levels(#[from] LevelsError),
     /// A method refuses an exponent.
     #[error(transparent)]
     Fit(#[from] FitError),

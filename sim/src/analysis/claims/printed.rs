@@ -163,7 +163,7 @@ pub(super) fn hermite() -> Result<Vec<Claim>, ClaimsError> {
         printed: Remainders::over(|n| {
             let mut greatest = 0.0_f64;
             for (level, n) in [(0.3, n), (0.5, n), (0.8, n), (0.3, n + 0.5), (0.8, n + 0.5)] {
-                let levels = Levels::new(level, Levels::default().g()).unwrap_or_default();
+                let levels = Levels::new(level, Levels::default().g())?;
                 let (power, at) = fitted_at(Method::Hermite, n, levels)?;
                 greatest = greatest.max(difference(hermite_printed(n, levels.q(), at.x), power));
             }

@@ -44,15 +44,14 @@ fn between(below: u32) -> Vec<f64> {
 }
 
 /// G = 1/k with the Q of the paper.
-fn one_over(k: u32) -> Levels {
-    let levels = Levels::default();
-    Levels::new(levels.q(), 1.0 / f64::from(k)).unwrap_or(levels)
+fn one_over(k: u32) -> Result<Levels, ClaimsError> {
+    Ok(Levels::new(Levels::default().q(), 1.0 / f64::from(k))?)
 }
 
 /// No examined exponent from 3 on has a negative zone.
 fn never_negative(k: u32) -> Result<bool, ClaimsError> {
     let exponents = integers().into_iter().filter(|&n| n >= 3.0).collect();
-    Ok(lowest(exponents, Method::ThreePoint, one_over(k))?.1 >= 0.0)
+    Ok(lowest(exponents, Method::ThreePoint, one_over(k)?)?.1 >= 0.0)
 }
 
 fn minimum(what: String, n: f64, value: f64, limit: Option<f64>) -> Evidence {
@@ -120,7 +119,7 @@ fn greatest_k() -> Result<u32, ClaimsError> {
 
 fn optimal() -> Result<Claim, ClaimsError> {
     let (k, n) = (greatest_k()?, GREATEST as f64);
-    let value = |k| percent(Method::ThreePoint, one_over(k), n);
+    let value = |k| percent(Method::ThreePoint, one_over(k)?, n);
     let (good, bad) = (value(k)?, value(k + 1)?);
     let what = |k| format!("value at the minimum of the three-point cubic with G = 1/{k}");
     Ok(Claim {
@@ -134,7 +133,7 @@ fn optimal() -> Result<Claim, ClaimsError> {
         ),
         holds_for: "integer n >= 3".to_owned(),
         fails_from: None,
-        verdict: if one_over(k) == Levels::default() { Verdict::Holds } else { Verdict::Fails },
+        verdict: if one_over(k)? == Levels::default() { Verdict::Holds } else { Verdict::Fails },
         command: command("optimal-level"),
         evidence: vec![
             minimum(what(k), n, good, Some(0.0)),
@@ -254,7 +253,7 @@ mod tests {
         /// maximum above it.
         #[test]
         fn nothing_is_less(n in 1.0_f64..200.0, x in 0.0_f64..=1.0, k in 3_u32..40) {
-            for (method, levels) in [(Method::Hermite, one_over(18)), (Method::ThreePoint, one_over(k))] {
+            for (method, levels) in [(Method::Hermite, one_over(18).unwrap()), (Method::ThreePoint, one_over(k).unwrap())] {
                 let fit = fit(method, n, levels).unwrap();
                 let cubic = fit.cubic().unwrap();
                 let low = lowest_value(cubic).min(cubic.power.d);
