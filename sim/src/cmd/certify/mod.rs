@@ -174,8 +174,8 @@ fn every_exponent(methods: Option<&Methods>, levels: Levels) -> anyhow::Result<C
     let chosen: Vec<Method> = methods.iter().filter(formula).copied().collect();
     anyhow::ensure!(
         !chosen.is_empty(),
-        "--all-real-n: rational is made for the tail, and minimax has no formula in n; choose another \
-         method"
+        "--all-real-n: rational is made for the tail and not for the epicentre, and minimax has no formula in \
+         n; choose another method"
     );
     let claims = chosen
         .into_par_iter()
