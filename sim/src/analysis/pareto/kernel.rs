@@ -1,0 +1,397 @@
+//! What a processor computes: one function of x for each exponent, its constants in a table.
+//!
+//! Plain multiplications, additions and divisions in f32 or f64, nothing fused and nothing reordered, so
+//! that each gives the same bits on every machine; `powf` is the platform's. A loop runs over a block of
+//! one exponent, or over samples that each have their own.
+
+use hw_model::fit::{Curve, Fit};
+use hw_model::highlight::{Cubic, Rational};
+use multiversion::multiversion;
+use num_traits::Float;
+
+/// f32 and f64.
+pub trait Real: Float + Send + Sync + 'static {
+    /// Bits of one.
+    const BITS: u32;
+    /// The nearest one.
+    fn nearest(value: f64) -> Self;
+    /// The same number as an f64.
+    fn wide(self) -> f64;
+    /// Its integer part, not negative.
+    fn whole(self) -> u32;
+}
+
+macro_rules! real {
+    ($real:ty, $bits:literal) => {
+        impl Real for $real {
+            const BITS: u32 = $bits;
+            #[inline(always)]
+            fn nearest(value: f64) -> Self {
+                value as $real
+            }
+            #[inline(always)]
+            fn wide(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn whole(self) -> u32 {
+                self as u32
+            }
+        }
+    };
+}
+real!(f32, 32);
+real!(f64, 64);
+
+/// Samples that go through the lines together.
+const LANES: usize = 64;
+
+/// A function of x with its constants.
+trait Row<T> {
+    fn at(&self, x: T) -> T;
+}
+
+/// 1 − s·(k1 − s·(k2 − s·k3)), s = 1 − x, and not less than 0; 0 for s above `cut`.
+#[derive(Debug, Clone, Copy)]
+pub struct CubicRow<T> {
+    k: [T; 3],
+    cut: T,
+}
+
+impl<T: Real> CubicRow<T> {
+    fn new(cubic: &Cubic, cut: f64) -> Self {
+        let k = [cubic.centred.k1, cubic.centred.k2, cubic.centred.k3].map(T::nearest);
+        Self { k, cut: T::nearest(cut) }
+    }
+
+    /// Down to the cubic's minimum below the epicentre, or to x = 0 where it has none.
+    fn to_its_minimum(cubic: &Cubic, epicentre: f64) -> Self {
+        let minimum = cubic.centred.first_minimum().unwrap_or(1.0);
+        Self::new(cubic, minimum.clamp(epicentre, 1.0))
+    }
+
+    #[inline(always)]
+    fn polynomial(&self, s: T) -> T {
+        let [k1, k2, k3] = self.k;
+        let value = T::one() - s * (k1 - s * (k2 - s * k3));
+        if value > T::zero() { value } else { T::zero() }
+    }
+}
+
+impl<T: Real> Row<T> for CubicRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        let s = T::one() - x;
+        let value = self.polynomial(s);
+        if s <= self.cut { value } else { T::zero() }
+    }
+}
+
+/// x/(a − b + b·s), and 1 where that would be more (`rational` above its epicentre).
+#[derive(Debug, Clone, Copy)]
+pub struct RationalRow<T> {
+    at_one: T,
+    b: T,
+}
+
+impl<T: Real> RationalRow<T> {
+    fn new(rational: &Rational) -> Self {
+        Self { at_one: T::nearest(rational.at_one), b: T::nearest(rational.b) }
+    }
+}
+
+impl<T: Real> Row<T> for RationalRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        let denominator = self.at_one + self.b * (T::one() - x);
+        let value = x / denominator;
+        if denominator > x { value } else { T::one() }
+    }
+}
+
+/// The cubic down to its cut, the ratio below.
+#[derive(Debug, Clone, Copy)]
+pub struct CompositeRow<T> {
+    epicentre: CubicRow<T>,
+    tail: RationalRow<T>,
+}
+
+impl<T: Real> Row<T> for CompositeRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        let s = T::one() - x;
+        let (above, below) = (self.epicentre.polynomial(s), self.tail.at(x));
+        if s <= self.epicentre.cut { above } else { below }
+    }
+}
+
+/// n, for x/(n − n·x + x) as Schlick printed it.
+#[derive(Debug, Clone, Copy)]
+pub struct SchlickRow<T>(T);
+
+impl<T: Real> Row<T> for SchlickRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        x / (self.0 - self.0 * x + x)
+    }
+}
+
+/// n, for the platform's `powf`.
+#[derive(Debug, Clone, Copy)]
+pub struct PowfRow<T>(T);
+
+impl<T: Real> Row<T> for PowfRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        x.powf(self.0)
+    }
+}
+
+/// x^n at the ends of equal intervals, exponent after exponent.
+#[derive(Debug, Clone)]
+pub struct LinearTable<T> {
+    intervals: usize,
+    values: Vec<T>,
+}
+
+impl<T> LinearTable<T> {
+    #[inline(always)]
+    fn row(&self, address: usize) -> LinearRow<'_, T> {
+        let values = self.intervals + 1;
+        LinearRow(&self.values[address * values..][..values])
+    }
+}
+
+/// Straight lines between the values of one exponent.
+struct LinearRow<'a, T>(&'a [T]);
+
+impl<T: Real> Row<T> for LinearRow<'_, T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        let Some(last) = self.0.len().checked_sub(2) else { return T::zero() };
+        let place = x * T::nearest((last + 1) as f64);
+        let index = place.whole().min(last as u32);
+        let (low, high) = (self.0[index as usize], self.0[index as usize + 1]);
+        low + (place - T::nearest(f64::from(index))) * (high - low)
+    }
+}
+
+/// One way to compute x^n, with its table.
+#[derive(Debug, Clone)]
+pub enum Kernel<T> {
+    /// A cubic in s, zero below.
+    Cubic(Vec<CubicRow<T>>),
+    /// A cubic in s, a ratio below.
+    Composite(Vec<CompositeRow<T>>),
+    /// A ratio everywhere.
+    Rational(Vec<RationalRow<T>>),
+    /// Schlick's formula.
+    Schlick(Vec<SchlickRow<T>>),
+    /// The platform's function.
+    Powf(Vec<PowfRow<T>>),
+    /// Multiplications alone.
+    Powers(Vec<u32>),
+    /// Straight lines between values of a table.
+    Linear(LinearTable<T>),
+}
+
+impl<T: Real> Kernel<T> {
+    /// What a fit says for each exponent. The fits are all of one method.
+    pub(super) fn of_fits(fits: &[Fit]) -> Self {
+        let cubic = |fit: &Fit| match &fit.curve {
+            Curve::Cubic(cubic) => Some(CubicRow::to_its_minimum(cubic, fit.epicentre.s)),
+            _ => None,
+        };
+        let rational = |fit: &Fit| match &fit.curve {
+            Curve::Rational(rational) => Some(RationalRow::new(rational)),
+            _ => None,
+        };
+        let composite = |fit: &Fit| match &fit.curve {
+            Curve::Composite { epicentre, tail } => Some(CompositeRow {
+                epicentre: CubicRow::new(epicentre, fit.epicentre.s),
+                tail: RationalRow::new(tail),
+            }),
+            _ => None,
+        };
+        match fits.first().map(|fit| &fit.curve) {
+            Some(Curve::Rational(_)) => Self::Rational(fits.iter().filter_map(rational).collect()),
+            Some(Curve::Composite { .. }) => {
+                Self::Composite(fits.iter().filter_map(composite).collect())
+            }
+            _ => Self::Cubic(fits.iter().filter_map(cubic).collect()),
+        }
+    }
+
+    /// Schlick's formula for these exponents.
+    pub(super) fn schlick(exponents: &[f64]) -> Self {
+        Self::Schlick(exponents.iter().map(|&n| SchlickRow(T::nearest(n))).collect())
+    }
+
+    /// `powf` for these exponents.
+    pub(super) fn powf(exponents: &[f64]) -> Self {
+        Self::Powf(exponents.iter().map(|&n| PowfRow(T::nearest(n))).collect())
+    }
+
+    /// Repeated squaring for these exponents, which are integers of at most 32 bits.
+    pub(super) fn powers(exponents: &[f64]) -> Self {
+        Self::Powers(exponents.iter().map(|&n| n as u32).collect())
+    }
+
+    /// So many straight lines for each of these exponents; `power` gives x^n.
+    pub(super) fn linear(
+        exponents: &[f64],
+        intervals: usize,
+        power: impl Fn(f64, f64) -> f64,
+    ) -> Self {
+        let value = |n: f64, i: usize| T::nearest(power(n, i as f64 / intervals as f64));
+        let row = |&n: &f64| (0..=intervals).map(move |i| (n, i));
+        let values = exponents.iter().flat_map(row).map(|(n, i)| value(n, i)).collect();
+        Self::Linear(LinearTable { intervals, values })
+    }
+
+    /// Bits of the table, all exponents together.
+    pub(super) fn table_bits(&self) -> u64 {
+        let words = match self {
+            Self::Cubic(rows) => 4 * rows.len(),
+            Self::Composite(rows) => 6 * rows.len(),
+            Self::Rational(rows) => 2 * rows.len(),
+            Self::Schlick(_) | Self::Powf(_) | Self::Powers(_) => 0,
+            Self::Linear(table) => table.values.len(),
+        };
+        words as u64 * u64::from(T::BITS)
+    }
+
+    #[inline(always)]
+    fn over_block(&self, row: usize, xs: &[T], out: &mut [T]) {
+        match self {
+            Self::Cubic(rows) => one(&rows[row], xs, out),
+            Self::Composite(rows) => one(&rows[row], xs, out),
+            Self::Rational(rows) => one(&rows[row], xs, out),
+            Self::Schlick(rows) => one(&rows[row], xs, out),
+            Self::Powf(rows) => one(&rows[row], xs, out),
+            Self::Powers(exponents) => powers_of_block(exponents[row], xs, out),
+            Self::Linear(table) => one(&table.row(row), xs, out),
+        }
+    }
+
+    #[inline(always)]
+    fn over_mixture(&self, addresses: &[u32], xs: &[T], out: &mut [T]) {
+        match self {
+            Self::Cubic(rows) => many(rows, addresses, xs, out),
+            Self::Composite(rows) => many(rows, addresses, xs, out),
+            Self::Rational(rows) => many(rows, addresses, xs, out),
+            Self::Schlick(rows) => many(rows, addresses, xs, out),
+            Self::Powf(rows) => many(rows, addresses, xs, out),
+            Self::Powers(exponents) => powers_of_mixture(exponents, addresses, xs, out),
+            Self::Linear(table) => {
+                for ((&address, &x), out) in addresses.iter().zip(xs).zip(out) {
+                    *out = table.row(address as usize).at(x);
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn one<T: Real>(row: &impl Row<T>, xs: &[T], out: &mut [T]) {
+    for (&x, out) in xs.iter().zip(out) {
+        *out = row.at(x);
+    }
+}
+
+/// The rows are fetched first, some at a time, so that what follows is a plain loop.
+#[inline(always)]
+fn many<T: Real, R: Row<T> + Copy>(rows: &[R], addresses: &[u32], xs: &[T], out: &mut [T]) {
+    let chunks = addresses.chunks(LANES).zip(xs.chunks(LANES)).zip(out.chunks_mut(LANES));
+    for ((addresses, xs), out) in chunks {
+        let mut fetched = [rows[0]; LANES];
+        for (fetched, &address) in fetched.iter_mut().zip(addresses) {
+            *fetched = rows[address as usize];
+        }
+        for ((row, &x), out) in fetched.iter().zip(xs).zip(out) {
+            *out = row.at(x);
+        }
+    }
+}
+
+/// The loop over the bits of n outside and that over samples inside, so that a compiler can put several
+/// samples in one instruction. The same multiplications as one by one, so the same bits.
+#[inline(always)]
+fn powers_of_block<T: Real>(exponent: u32, xs: &[T], out: &mut [T]) {
+    for (xs, out) in xs.chunks(LANES).zip(out.chunks_mut(LANES)) {
+        let mut squares = [T::zero(); LANES];
+        squares[..xs.len()].copy_from_slice(xs);
+        out.fill(T::one());
+        let mut remaining = exponent;
+        loop {
+            if remaining & 1 == 1 {
+                for (power, &square) in out.iter_mut().zip(&squares) {
+                    *power = *power * square;
+                }
+            }
+            remaining >>= 1;
+            if remaining == 0 {
+                break;
+            }
+            squares = squares.map(|square| square * square);
+        }
+    }
+}
+
+/// The same where each sample has its own exponent: as many squarings as the greatest of some samples needs,
+/// and a choice instead of a branch for each bit. The multiplications that count are the same.
+#[inline(always)]
+fn powers_of_mixture<T: Real>(exponents: &[u32], addresses: &[u32], xs: &[T], out: &mut [T]) {
+    let chunks = addresses.chunks(LANES).zip(xs.chunks(LANES)).zip(out.chunks_mut(LANES));
+    for ((addresses, xs), out) in chunks {
+        let mut squares = [T::zero(); LANES];
+        squares[..xs.len()].copy_from_slice(xs);
+        let mut remaining = [0_u32; LANES];
+        for (remaining, &address) in remaining.iter_mut().zip(addresses) {
+            *remaining = exponents[address as usize];
+        }
+        out.fill(T::one());
+        let mut any = remaining.iter().fold(0, |any, n| any | n);
+        while any > 0 {
+            for ((power, &square), remaining) in out.iter_mut().zip(&squares).zip(&mut remaining) {
+                let next = *power * square;
+                *power = if *remaining & 1 == 1 { next } else { *power };
+                *remaining >>= 1;
+            }
+            squares = squares.map(|square| square * square);
+            any >>= 1;
+        }
+    }
+}
+
+/// A kernel and its loops, compiled for the vector widths named here; the machine's own is chosen at run
+/// time.
+pub(super) trait Loops: Sized {
+    /// One exponent for all.
+    fn block(kernel: &Kernel<Self>, row: usize, xs: &[Self], out: &mut [Self]);
+    /// An exponent for each.
+    fn mixture(kernel: &Kernel<Self>, addresses: &[u32], xs: &[Self], out: &mut [Self]);
+}
+
+macro_rules! loops {
+    ($real:ty) => {
+        impl Loops for $real {
+            fn block(kernel: &Kernel<Self>, row: usize, xs: &[Self], out: &mut [Self]) {
+                #[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+                fn run(kernel: &Kernel<$real>, row: usize, xs: &[$real], out: &mut [$real]) {
+                    kernel.over_block(row, xs, out);
+                }
+                run(kernel, row, xs, out);
+            }
+            fn mixture(kernel: &Kernel<Self>, addresses: &[u32], xs: &[Self], out: &mut [Self]) {
+                #[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+                fn run(kernel: &Kernel<$real>, addresses: &[u32], xs: &[$real], out: &mut [$real]) {
+                    kernel.over_mixture(addresses, xs, out);
+                }
+                run(kernel, addresses, xs, out);
+            }
+        }
+    };
+}
+loops!(f32);
+loops!(f64);
