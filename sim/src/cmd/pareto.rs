@@ -48,7 +48,7 @@ pub(super) struct Args {
     #[arg(long)]
     no_timing: bool,
     /// Rounds of timing, in each of which every contender has a turn.
-    #[arg(long, value_name = "COUNT", default_value_t = 31, conflicts_with = "no_timing",
+    #[arg(long, value_name = "COUNT", default_value_t = 101, conflicts_with = "no_timing",
           value_parser = clap::value_parser!(u64).range(FEWEST_ROUNDS..=100_000))]
     rounds: u64,
     /// What the x and n of timing are drawn from.

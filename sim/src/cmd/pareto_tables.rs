@@ -143,34 +143,34 @@ fn standing(front: Option<bool>, dominated_by: Option<&String>) -> Cell {
 /// What one way to be asked says of a contender: median, quartiles, and the two standings.
 type Timed<'a> = (f64, [f64; 2], [(Option<bool>, Option<&'a String>); 2]);
 
-fn block(row: &TimingRow) -> Timed<'_> {
-    (
+fn block(row: &TimingRow) -> Option<Timed<'_>> {
+    Some((
         row.block_median,
         [row.block_lower_quartile, row.block_upper_quartile],
         [
             (row.block_epicentre_front, row.block_epicentre_dominated_by.as_ref()),
             (row.block_whole_front, row.block_whole_dominated_by.as_ref()),
         ],
-    )
+    ))
 }
 
-fn mixed(row: &TimingRow) -> Timed<'_> {
-    (
-        row.mixed_median,
-        [row.mixed_lower_quartile, row.mixed_upper_quartile],
+fn mixed(row: &TimingRow) -> Option<Timed<'_>> {
+    Some((
+        row.mixed_median?,
+        [row.mixed_lower_quartile?, row.mixed_upper_quartile?],
         [
             (row.mixed_epicentre_front, row.mixed_epicentre_dominated_by.as_ref()),
             (row.mixed_whole_front, row.mixed_whole_dominated_by.as_ref()),
         ],
-    )
+    ))
 }
 
 fn times(report: &ParetoReport, timing: &TimingReport) -> [Section; 2] {
     let seen = if report.exhaustive { "" } else { " (errors SAMPLED)" };
-    let section = |what: &str, of: fn(&TimingRow) -> Timed<'_>, notes: Vec<String>| {
+    let section = |what: &str, of: fn(&TimingRow) -> Option<Timed<'_>>, notes: Vec<String>| {
         let mut rows = Rows::new(&["contender", "ns/sample", "quartiles", "epicentre", "[0, 1]"]);
         for row in &timing.rows {
-            let (median, [low, high], [epicentre, whole]) = of(row);
+            let Some((median, [low, high], [epicentre, whole])) = of(row) else { continue };
             rows.push(vec![
                 Cell::from(row.contender.clone()),
                 Cell::from(format!("{median:.2}")),

@@ -96,7 +96,7 @@ pub(super) fn place(
                         cost += 12.0 * through.count() as f64;
                     }
                 }
-                cost + 9.0 * dense.iter().filter(|&&place| frame.has(place)).count() as f64
+                cost + 25.0 * dense.iter().filter(|&&place| frame.has(place)).count() as f64
             };
             let tried = candidates(name).filter(|frame| frame.within(area));
             frames[index] = tried

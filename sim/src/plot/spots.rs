@@ -53,7 +53,7 @@ pub(super) fn draw(chart: &Chart, computed: &ComputedLayout, scene: &mut Scene) 
         .iter()
         .map(|(spot, at)| {
             let size = style::SMALL_SIZE;
-            Wanted { at: *at, size: (words::width(&spot.label, size), f64::from(size)) }
+            Wanted { at: *at, size: (words::width(&spot.label, size), f64::from(size) + 2.0) }
         })
         .collect();
     let low = (computed.margin_left + 3.0, computed.margin_top + 3.0);
@@ -98,7 +98,7 @@ fn name(frame: &Frame, at: Place, text: &str, scene: &mut Scene) {
     };
     scene.add(Primitive::Text {
         x: rounded(x),
-        y: rounded(frame.high.1 - 2.0),
+        y: rounded(frame.high.1 - 3.0),
         content: text.to_owned(),
         size: style::SMALL_SIZE,
         anchor,

@@ -13,8 +13,8 @@ struct Picture<'a> {
     title: &'static str,
     cost: &'static str,
     points: Vec<Point<'a>>,
-    /// Whether processors take part.
-    software: bool,
+    /// How many kinds take part; one: presets alone.
+    kinds: usize,
 }
 
 struct Point<'a> {
@@ -64,37 +64,37 @@ fn pictures(
         rows.filter_map(|(at, row)| Some(Point { row, cost: cost(at, row)?, error: error(row)? }))
             .collect()
     };
-    let timed = |of: fn(&TimingRow) -> f64| {
-        move |at: usize, _: &Row| Some(of(report.timing.as_ref()?.rows.get(at)?))
+    let timed = |of: fn(&TimingRow) -> Option<f64>| {
+        move |at: usize, _: &Row| of(report.timing.as_ref()?.rows.get(at)?)
     };
     vec![
         Picture {
             name: region.choose("pareto_time_epicentre", "pareto_time_whole"),
             title: "Error against run time, one exponent for a block of samples",
             cost: "run time, ns per sample (median)",
-            points: points(&timed(|row| row.block_median)),
-            software: true,
+            points: points(&timed(|row| Some(row.block_median))),
+            kinds: 4,
         },
         Picture {
             name: region.choose("pareto_mixed_epicentre", "pareto_mixed_whole"),
             title: "Error against run time, an exponent for each sample",
             cost: "run time, ns per sample (median)",
             points: points(&timed(|row| row.mixed_median)),
-            software: true,
+            kinds: 3,
         },
         Picture {
             name: region.choose("pareto_multipliers_epicentre", "pareto_multipliers_whole"),
             title: "Error of the presets against their multipliers",
             cost: "partial-product bits of all multipliers",
             points: points(&|_, row| row.multiplier_bits.map(|bits| bits as f64)),
-            software: false,
+            kinds: 1,
         },
         Picture {
             name: region.choose("pareto_rom_epicentre", "pareto_rom_whole"),
             title: "Error of the presets against their ROM",
             cost: "ROM, kbit for all exponents",
             points: points(&|_, row| row.latency.map(|_| row.storage_bits as f64 / 1024.0)),
-            software: false,
+            kinds: 1,
         },
     ]
 }
@@ -116,7 +116,7 @@ fn chart(report: &ParetoReport, region: Region, picture: &Picture<'_>) -> Chart 
     );
     chart.size = Size::Page;
     chart.subtitle = Some(conditions(report, picture));
-    chart.kinds = kinds(picture.software);
+    chart.kinds = kinds(picture.kinds);
     let points: Vec<[f64; 2]> =
         picture.points.iter().map(|point| [point.cost, point.error]).collect();
     let dominators = dominators(&points);
@@ -141,7 +141,7 @@ fn conditions(report: &ParetoReport, picture: &Picture<'_>) -> String {
     } else {
         format!("SAMPLED: every {}th x", report.every)
     };
-    let marks = if picture.software { "; filled: f64, open: f32" } else { "" };
+    let marks = if picture.kinds > 1 { "; filled: f64, open: f32" } else { "" };
     format!("n = {}, x in {}, {seen}{marks}", shortened(&report.exponents), report.input)
 }
 
@@ -154,23 +154,25 @@ fn shortened(exponents: &str) -> String {
 }
 
 /// The kinds, in the order of [`kind`].
-fn kinds(software: bool) -> Vec<Kind> {
+fn kinds(count: usize) -> Vec<Kind> {
     let of = |name: &str, shape, colour| Kind { name: name.to_owned(), shape, colour };
-    if !software {
+    if count == 1 {
         return vec![of("preset", Shape::Square, 4)];
     }
-    vec![
+    let mut kinds = vec![
         of("method", Shape::Circle, 1),
         of("powf, repeated squaring (powers)", Shape::Diamond, 2),
         of("straight lines from a table", Shape::Triangle, 3),
         of("preset: the model, bit for bit", Shape::Square, 4),
-    ]
+    ];
+    kinds.truncate(count);
+    kinds
 }
 
 fn kind(picture: &Picture<'_>, row: &Row) -> usize {
     let name = row.contender.as_str();
     match () {
-        () if !picture.software => 0,
+        () if picture.kinds == 1 => 0,
         () if row.kind == "hardware" => 3,
         () if name.starts_with("linear") => 2,
         () if name.starts_with("pow") => 1,

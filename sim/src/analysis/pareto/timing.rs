@@ -4,8 +4,8 @@
 //! what they hold in a long run.
 //!
 //! Two ways to be asked: blocks of one exponent, as a renderer that sorts by material does, and an
-//! exponent for each sample, as pixels come. (The block engine of the hardware has no second way: it is
-//! asked sample by sample.)
+//! exponent for each sample, as pixels come. Of the hardware the block engine is timed, which is a model and
+//! not the hardware, and which takes one exponent at a time: it has no second way.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -67,8 +67,8 @@ pub struct Times {
 pub struct ContenderTimes {
     /// Blocks of one exponent.
     pub block: Times,
-    /// An exponent for each sample.
-    pub mixed: Times,
+    /// An exponent for each sample; none for the block engine.
+    pub mixed: Option<Times>,
 }
 
 /// Times everybody in turn.
@@ -87,8 +87,9 @@ pub fn times(
     for (contender, errors) in contenders.iter().zip(errors) {
         task.blocks(&contender.engine, &mut work);
         task.check(contender, errors, &work, |sample| task.row_of_block(sample / BLOCK))?;
-        task.mixture(&contender.engine, &mut work);
-        task.check(contender, errors, &work, |sample| task.mixed[sample] as usize)?;
+        if task.mixture(&contender.engine, &mut work) {
+            task.check(contender, errors, &work, |sample| task.mixed[sample] as usize)?;
+        }
     }
     let mut measured = vec![[Vec::new(), Vec::new()]; contenders.len()];
     let mut dice = ChaCha8Rng::seed_from_u64(seed);
@@ -99,12 +100,16 @@ pub fn times(
             let engine = &contenders[place].engine;
             let [block, mixed] = &mut measured[place];
             block.push(timed(&mut work, |work| task.blocks(black_box(engine), work)));
-            mixed.push(timed(&mut work, |work| task.mixture(black_box(engine), work)));
+            if !matches!(engine, Engine::Hardware(_)) {
+                let run = |work: &mut Work| _ = task.mixture(black_box(engine), work);
+                mixed.push(timed(&mut work, run));
+            }
         }
     }
     let both = measured.into_iter().map(|measured| {
-        let [block, mixed] = measured.map(Times::of);
-        ContenderTimes { block, mixed }
+        let [block, mixed] = measured;
+        let mixed = (!mixed.is_empty()).then(|| Times::of(mixed));
+        ContenderTimes { block: Times::of(block), mixed }
     });
     Ok(both.collect())
 }
@@ -194,7 +199,8 @@ impl<'a> Task<'a> {
         }
     }
 
-    fn mixture(&self, engine: &Engine, work: &mut Work) {
+    /// False where there is no such way.
+    fn mixture(&self, engine: &Engine, work: &mut Work) -> bool {
         work.wide.resize(SAMPLES, 0.0);
         work.single.resize(SAMPLES, 0.0);
         match engine {
@@ -204,15 +210,9 @@ impl<'a> Task<'a> {
             Engine::Double(kernel) => {
                 f64::mixture(kernel, &self.mixed, &self.samples.double, &mut work.wide);
             }
-            Engine::Hardware(design) => {
-                work.bits.resize(SAMPLES, 0);
-                for (sample, &row) in self.mixed.iter().enumerate() {
-                    let x = &self.samples.bits[sample..=sample];
-                    design.datapath().evaluate_block(row, x, &mut work.block);
-                    work.bits[sample] = work.block.intensities[0];
-                }
-            }
+            Engine::Hardware(_) => return false,
         }
+        true
     }
 
     /// Holds what a run left against x^n. The reference is off by half an ulp of 1 at most.
