@@ -5,6 +5,7 @@ use std::io::Write;
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use crate::analysis::pareto::synthesis::Synthesis;
 use crate::analysis::pareto::{ParetoReport, TimingReport, TimingRow};
+use crate::report::pareto_figures::shortened;
 
 /// Significant digits of an error.
 const DIGITS: usize = 4;
@@ -42,7 +43,7 @@ pub(super) fn print(
 pub(super) fn page(report: &ParetoReport, out: &mut dyn Write) -> anyhow::Result<()> {
     writeln!(out, "{}\n", scope(report))?;
     for section in sections(report) {
-        writeln!(out, "## {}\n", section.title)?;
+        writeln!(out, "### {}\n", section.title)?;
         let columns = &section.rows.columns;
         writeln!(out, "| {} |", columns.join(" | "))?;
         writeln!(out, "|{}|", vec!["---"; columns.len()].join("|"))?;
@@ -58,7 +59,7 @@ pub(super) fn page(report: &ParetoReport, out: &mut dyn Write) -> anyhow::Result
     for line in &report.left_out {
         writeln!(out, "Left out: {line}.\n")?;
     }
-    writeln!(out, "## What each computes\n")?;
+    writeln!(out, "### What each computes\n")?;
     for row in &report.contenders {
         writeln!(out, "- `{}`: {}", row.contender, row.what)?;
     }
@@ -76,7 +77,8 @@ fn text(cell: &Cell) -> String {
 }
 
 fn scope(report: &ParetoReport) -> String {
-    let ParetoReport { input, exponents, every, samples, epicentre_samples, .. } = report;
+    let ParetoReport { input, every, samples, epicentre_samples, .. } = report;
+    let exponents = shortened(&report.exponents);
     let seen = if report.exhaustive {
         "every representable x".to_owned()
     } else {

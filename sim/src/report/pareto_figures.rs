@@ -145,7 +145,9 @@ fn conditions(report: &ParetoReport, picture: &Picture<'_>) -> String {
     format!("n = {}, x in {}, {seen}{marks}", shortened(&report.exponents), report.input)
 }
 
-fn shortened(exponents: &str) -> String {
+/// A list of exponents where there is no room for all of them.
+#[must_use]
+pub fn shortened(exponents: &str) -> String {
     const MOST: usize = 30;
     match exponents.char_indices().nth(MOST) {
         None => exponents.to_owned(),

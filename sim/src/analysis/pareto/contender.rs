@@ -9,9 +9,10 @@ use hw_model::highlight::phong;
 use hw_model::presets::{self, Preset};
 use thiserror::Error;
 
+use super::functions::Real;
 use super::hardware::HardwareCost;
 use super::inputs::{Inputs, Samples};
-use super::kernel::{Kernel, Loops, Real};
+use super::kernel::{Kernel, Loops};
 
 /// Intervals of the two tables of straight lines.
 const INTERVALS: [usize; 2] = [256, 4096];

@@ -4,7 +4,8 @@
 //! | file | holds |
 //! |---|---|
 //! | `inputs.rs` | which x and n |
-//! | `contender.rs`, `kernel.rs` | who is compared, and what each computes |
+//! | `contender.rs` | who is compared |
+//! | `functions.rs`, `kernel.rs` | what a processor computes for a sample, and for many |
 //! | `error.rs` | the errors of all over all inputs |
 //! | `timing.rs` | run time, side by side |
 //! | `hardware.rs`, `synthesis.rs` | what hardware costs, derived and measured |
@@ -16,6 +17,7 @@ pub mod check;
 pub mod contender;
 pub mod error;
 pub mod front;
+pub mod functions;
 pub mod hardware;
 pub mod inputs;
 pub mod kernel;

@@ -18,8 +18,9 @@ use thiserror::Error;
 
 use super::contender::{Contender, Engine, Work};
 use super::error::ContenderErrors;
+use super::functions::Real;
 use super::inputs::{Inputs, Samples};
-use super::kernel::{Loops, Real};
+use super::kernel::Loops;
 
 /// Samples of a pass: with what comes out, they fit into a second-level cache.
 pub const SAMPLES: usize = 1 << 14;
