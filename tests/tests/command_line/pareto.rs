@@ -8,7 +8,7 @@ use blysk_tests::bench;
 use blysk_tests::cli::{csv_rows, number};
 use hw_model::config::Config;
 use hw_model::design::Design;
-use hw_model::fit::{Curve, Fit, Levels, Method, fit};
+use hw_model::fit::{Curve, Fit, Levels, Method, fit, minimax};
 use hw_model::highlight::{ExactPower, phong};
 use hw_model::presets;
 use serde_json::Value;
@@ -25,7 +25,7 @@ macro_rules! values {
     ($name:ident, $real:ty) => {
         /// What this contender is said to compute, one sample at a time.
         fn $name(family: &str, n: u32, x: f64) -> f64 {
-            let real = |value: f64| value as $real;
+            let real = |value: f64| -> $real { value as $real };
             let (t, exponent) = (real(x), real(f64::from(n)));
             let s = 1.0 - t;
             let value =
@@ -256,7 +256,7 @@ fn times_are_ordered_and_json_has_both_tables() {
 fn a_sample_says_everywhere_that_it_is_one() {
     let bench = bench!();
     let said = bench.good(&format!("{SMALL} --every 3 --out part"));
-    assert!(said.contains("SAMPLED, every 3th x") && said.contains("(SAMPLED)"), "{said}");
+    assert!(said.contains("SAMPLED, one x in 3") && said.contains("(SAMPLED)"), "{said}");
     assert!(csv_rows(&bench.text("part/pareto.csv")).iter().all(|row| row["every"] == "3"));
     assert!(bench.text("part/pareto_rom_whole.svg").contains("SAMPLED"));
     assert!(bench.good(&format!("{SMALL} --every 3 --format markdown")).contains("SAMPLED"));

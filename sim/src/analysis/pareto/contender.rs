@@ -4,6 +4,7 @@
 use hw_model::config::ConfigError;
 use hw_model::datapath::Block;
 use hw_model::design::{Design, DesignError};
+use hw_model::fit::minimax::{Fitted, Range, segments};
 use hw_model::fit::{Fit, FitError, Levels, Method, fit};
 use hw_model::highlight::phong;
 use hw_model::presets::{self, Preset};
@@ -158,6 +159,7 @@ impl Contenders {
         for method in Method::ALL {
             methods(method, exponents, &mut list)?;
         }
+        two_segments(exponents, &mut list)?;
         functions(exponents, &mut list);
         let mut left_out = Vec::new();
         let whole = |n: &f64| n.fract() == 0.0 && *n <= GREATEST_POWER;
@@ -198,6 +200,15 @@ fn methods(
         _ => ZERO_BELOW,
     };
     both(name, what, Kernel::of_fits(&fits), Kernel::of_fits(&fits), list);
+    Ok(())
+}
+
+/// Beside the methods, as the preset `precise` has it: what a second row of coefficients buys.
+fn two_segments(exponents: &[f64], list: &mut Vec<Contender>) -> Result<(), ContenderError> {
+    let fits: Vec<Fitted> =
+        exponents.iter().map(|&n| segments(n, 2, Range::Balanced)).collect::<Result<_, _>>()?;
+    let what = "two minimax cubics, each not less than 0; 0 where x^n is their greatest error";
+    both("minimax_2", what, Kernel::segments(&fits), Kernel::segments(&fits), list);
     Ok(())
 }
 

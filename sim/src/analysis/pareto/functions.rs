@@ -3,7 +3,8 @@
 //! Plain multiplications, additions and divisions in f32 or f64, nothing fused and nothing reordered, so
 //! that each gives the same bits on every machine; `powf` is the platform's.
 
-use hw_model::highlight::{Cubic, Rational};
+use hw_model::fit::minimax::Fitted;
+use hw_model::highlight::{Cubic, Rational, Segment};
 use num_traits::Float;
 
 /// f32 and f64.
@@ -116,6 +117,43 @@ impl<T: Real> Row<T> for CompositeRow<T> {
         let s = T::one() - x;
         let (above, below) = (self.epicentre.polynomial(s), self.tail.at(x));
         if s <= self.epicentre.cut { above } else { below }
+    }
+}
+
+/// A cubic from the highlight down, another below it, neither less than 0; 0 below both.
+#[derive(Debug, Clone, Copy)]
+pub struct SegmentsRow<T> {
+    first: CubicRow<T>,
+    start: T,
+    c: [T; 4],
+    end: T,
+}
+
+impl<T: Real> SegmentsRow<T> {
+    /// Two segments, of which the second may be missing: then the first is x^n itself.
+    pub(super) fn new(fitted: &Fitted) -> Self {
+        let nothing = Segment { start: 0.0, c: [0.0; 4] };
+        let second = fitted.further.first().unwrap_or(&nothing);
+        let end = |place: usize| fitted.ends.get(place).or(fitted.ends.last()).map_or(1.0, |&s| s);
+        Self {
+            first: CubicRow::new(&fitted.first, end(0)),
+            start: T::nearest(second.start),
+            c: second.c.map(T::nearest),
+            end: T::nearest(end(1)),
+        }
+    }
+}
+
+impl<T: Real> Row<T> for SegmentsRow<T> {
+    #[inline(always)]
+    fn at(&self, x: T) -> T {
+        let s = T::one() - x;
+        let [c0, c1, c2, c3] = self.c;
+        let v = s - self.start;
+        let second = c0 - v * (c1 - v * (c2 - v * c3));
+        let second = if second > T::zero() { second } else { T::zero() };
+        let below = if s <= self.end { second } else { T::zero() };
+        if s <= self.first.cut { self.first.polynomial(s) } else { below }
     }
 }
 

@@ -1,11 +1,12 @@
 //! What a processor computes: for each exponent a function of x (`functions.rs`), its constants in a table. A
 //! loop runs over a block of one exponent, or over samples that each have their own.
 
+use hw_model::fit::minimax::Fitted;
 use hw_model::fit::{Curve, Fit};
 use multiversion::multiversion;
 
 use super::functions::{
-    CompositeRow, CubicRow, LinearRow, PowfRow, RationalRow, Real, Row, SchlickRow,
+    CompositeRow, CubicRow, LinearRow, PowfRow, RationalRow, Real, Row, SchlickRow, SegmentsRow,
 };
 
 /// Samples that go through the lines together.
@@ -33,6 +34,8 @@ pub enum Kernel<T> {
     Cubic(Vec<CubicRow<T>>),
     /// A cubic in s, a ratio below.
     Composite(Vec<CompositeRow<T>>),
+    /// Two cubics in s, zero below.
+    Segments(Vec<SegmentsRow<T>>),
     /// A ratio everywhere.
     Rational(Vec<RationalRow<T>>),
     /// Schlick's formula.
@@ -72,6 +75,11 @@ impl<T: Real> Kernel<T> {
         }
     }
 
+    /// Two segments for each exponent.
+    pub(super) fn segments(fits: &[Fitted]) -> Self {
+        Self::Segments(fits.iter().map(SegmentsRow::new).collect())
+    }
+
     /// Schlick's formula for these exponents.
     pub(super) fn schlick(exponents: &[f64]) -> Self {
         Self::Schlick(exponents.iter().map(|&n| SchlickRow(T::nearest(n))).collect())
@@ -104,6 +112,7 @@ impl<T: Real> Kernel<T> {
         let words = match self {
             Self::Cubic(rows) => 4 * rows.len(),
             Self::Composite(rows) => 6 * rows.len(),
+            Self::Segments(rows) => 10 * rows.len(),
             Self::Rational(rows) => 2 * rows.len(),
             Self::Schlick(_) | Self::Powf(_) | Self::Powers(_) => 0,
             Self::Linear(table) => table.values.len(),
@@ -116,6 +125,7 @@ impl<T: Real> Kernel<T> {
         match self {
             Self::Cubic(rows) => one(&rows[row], xs, out),
             Self::Composite(rows) => one(&rows[row], xs, out),
+            Self::Segments(rows) => one(&rows[row], xs, out),
             Self::Rational(rows) => one(&rows[row], xs, out),
             Self::Schlick(rows) => one(&rows[row], xs, out),
             Self::Powf(rows) => one(&rows[row], xs, out),
@@ -129,6 +139,7 @@ impl<T: Real> Kernel<T> {
         match self {
             Self::Cubic(rows) => many(rows, addresses, xs, out),
             Self::Composite(rows) => many(rows, addresses, xs, out),
+            Self::Segments(rows) => many(rows, addresses, xs, out),
             Self::Rational(rows) => many(rows, addresses, xs, out),
             Self::Schlick(rows) => many(rows, addresses, xs, out),
             Self::Powf(rows) => many(rows, addresses, xs, out),
