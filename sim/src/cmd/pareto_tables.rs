@@ -82,7 +82,7 @@ fn scope(report: &ParetoReport) -> String {
     let seen = if report.exhaustive {
         "every representable x".to_owned()
     } else {
-        format!("SAMPLED, every {every}th x: greater errors may lie between")
+        format!("SAMPLED, one x in {every}: greater errors may lie between")
     };
     format!(
         "Errors are fractions of full intensity against the exact xⁿ at x in {input}, n = {exponents}; {seen}: \

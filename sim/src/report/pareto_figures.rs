@@ -139,7 +139,7 @@ fn conditions(report: &ParetoReport, picture: &Picture<'_>) -> String {
     let seen = if report.exhaustive {
         "every representable x".to_owned()
     } else {
-        format!("SAMPLED: every {}th x", report.every)
+        format!("SAMPLED: one x in {}", report.every)
     };
     let marks = if picture.kinds > 1 { "; filled: f64, open: f32" } else { "" };
     format!("n = {}, x in {}, {seen}{marks}", shortened(&report.exponents), report.input)
