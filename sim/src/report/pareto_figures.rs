@@ -107,7 +107,8 @@ fn chart(report: &ParetoReport, region: Region, picture: &Picture<'_>) -> Chart 
     let hidden = picture.points.iter().any(|point| point.error < LEAST_DRAWN);
     let mut y_range = range(picture.points.iter().map(|point| drawn(point).1));
     if hidden {
-        y_range.0 = LEAST_DRAWN / 3.0;
+        // Room for their names below them.
+        y_range.0 = LEAST_DRAWN / 8.0;
     }
     let mut chart = Chart::new(
         picture.title,
