@@ -17,6 +17,9 @@ struct Picture<'a> {
     kinds: usize,
 }
 
+/// The error of a contender in a region.
+type ErrorOf = fn(&Row) -> Option<f64>;
+
 struct Point<'a> {
     row: &'a Row,
     cost: f64,
@@ -26,7 +29,7 @@ struct Point<'a> {
 /// The pictures with their names, without those that would have nothing to show.
 #[must_use]
 pub fn figures(report: &ParetoReport) -> Vec<(&'static str, Chart)> {
-    let regions: [(Region, fn(&Row) -> Option<f64>); 2] =
+    let regions: [(Region, ErrorOf); 2] =
         [(Region::Epicentre, |row| row.epicentre_worst), (Region::Whole, |row| row.whole_worst)];
     let mut charts = Vec::new();
     for (region, error) in regions {
@@ -54,11 +57,7 @@ impl Region {
     }
 }
 
-fn pictures(
-    report: &ParetoReport,
-    region: Region,
-    error: fn(&Row) -> Option<f64>,
-) -> Vec<Picture<'_>> {
+fn pictures(report: &ParetoReport, region: Region, error: ErrorOf) -> Vec<Picture<'_>> {
     let points = |cost: &dyn Fn(usize, &Row) -> Option<f64>| {
         let rows = report.contenders.iter().enumerate();
         rows.filter_map(|(at, row)| Some(Point { row, cost: cost(at, row)?, error: error(row)? }))
