@@ -53,7 +53,7 @@ pub(super) struct Wanted {
 /// Half the side of a point's frame.
 const POINT: f64 = 5.0;
 /// How far from its point a name may begin.
-const DISTANCES: [f64; 9] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0];
+const DISTANCES: [f64; 9] = [5.0, 8.0, 12.0, 18.0, 26.0, 36.0, 48.0, 62.0, 80.0];
 /// Directions that are tried at each distance.
 const DIRECTIONS: u32 = 24;
 /// Beyond this a name needs a line to its point.
@@ -98,7 +98,7 @@ pub(super) fn place(
                         cost += 12.0 * through.count() as f64;
                     }
                 }
-                cost + 25.0 * dense.iter().filter(|&&place| frame.has(place)).count() as f64
+                cost + 60.0 * dense.iter().filter(|&&place| frame.has(place)).count() as f64
             };
             let tried = candidates(name).filter(|frame| frame.within(area));
             frames[index] = tried

@@ -17,6 +17,9 @@ struct Picture<'a> {
     kinds: usize,
 }
 
+/// The error of a contender in a region.
+type ErrorOf = fn(&Row) -> Option<f64>;
+
 struct Point<'a> {
     row: &'a Row,
     cost: f64,
@@ -26,7 +29,7 @@ struct Point<'a> {
 /// The pictures with their names, without those that would have nothing to show.
 #[must_use]
 pub fn figures(report: &ParetoReport) -> Vec<(&'static str, Chart)> {
-    let regions: [(Region, fn(&Row) -> Option<f64>); 2] =
+    let regions: [(Region, ErrorOf); 2] =
         [(Region::Epicentre, |row| row.epicentre_worst), (Region::Whole, |row| row.whole_worst)];
     let mut charts = Vec::new();
     for (region, error) in regions {
@@ -54,11 +57,7 @@ impl Region {
     }
 }
 
-fn pictures(
-    report: &ParetoReport,
-    region: Region,
-    error: fn(&Row) -> Option<f64>,
-) -> Vec<Picture<'_>> {
+fn pictures(report: &ParetoReport, region: Region, error: ErrorOf) -> Vec<Picture<'_>> {
     let points = |cost: &dyn Fn(usize, &Row) -> Option<f64>| {
         let rows = report.contenders.iter().enumerate();
         rows.filter_map(|(at, row)| Some(Point { row, cost: cost(at, row)?, error: error(row)? }))
@@ -107,7 +106,8 @@ fn chart(report: &ParetoReport, region: Region, picture: &Picture<'_>) -> Chart 
     let hidden = picture.points.iter().any(|point| point.error < LEAST_DRAWN);
     let mut y_range = range(picture.points.iter().map(|point| drawn(point).1));
     if hidden {
-        y_range.0 = LEAST_DRAWN / 3.0;
+        // Room for their names below them.
+        y_range.0 = LEAST_DRAWN / 8.0;
     }
     let mut chart = Chart::new(
         picture.title,

@@ -44,15 +44,23 @@ pub fn differences(
 }
 
 /// What follows from the configuration alone.
-fn costs(row: &Row) -> (u64, Option<u64>, Option<&str>, Option<u64>, Option<u64>, &str) {
-    (
-        row.storage_bits,
-        row.latency,
-        row.multipliers.as_deref(),
-        row.multiplier_bits,
-        row.divider_bits,
-        &row.what,
-    )
+#[derive(Debug, PartialEq)]
+struct Costs<'a> {
+    storage_bits: u64,
+    latency: Option<u64>,
+    multipliers: Option<&'a str>,
+    divider_bits: Option<u64>,
+    what: &'a str,
+}
+
+fn costs(row: &Row) -> Costs<'_> {
+    Costs {
+        storage_bits: row.storage_bits,
+        latency: row.latency,
+        multipliers: row.multipliers.as_deref(),
+        divider_bits: row.divider_bits,
+        what: &row.what,
+    }
 }
 
 /// A greatest error and where it is.
