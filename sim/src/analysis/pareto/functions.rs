@@ -152,8 +152,10 @@ impl<T: Real> Row<T> for SegmentsRow<T> {
         let v = s - self.start;
         let second = c0 - v * (c1 - v * (c2 - v * c3));
         let second = if second > T::zero() { second } else { T::zero() };
+        // Both are computed and one is chosen, so that no branch keeps samples apart.
+        let first = self.first.polynomial(s);
         let below = if s <= self.end { second } else { T::zero() };
-        if s <= self.first.cut { self.first.polynomial(s) } else { below }
+        if s <= self.first.cut { first } else { below }
     }
 }
 
