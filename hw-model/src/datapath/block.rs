@@ -87,15 +87,15 @@ fn narrow_row(
 
 /// The lines of a data path, out of their ranks.
 #[derive(Clone, Copy)]
-struct Lines {
-    front_end: FrontEnd,
-    stages: Option<[MultiplyAdd; 3]>,
-    divider: Option<Divider>,
-    output_one: i64,
+pub(super) struct Lines {
+    pub(super) front_end: FrontEnd,
+    pub(super) stages: Option<[MultiplyAdd; 3]>,
+    pub(super) divider: Option<Divider>,
+    pub(super) output_one: i64,
 }
 
 impl Lines {
-    fn of(datapath: &Datapath) -> Self {
+    pub(super) fn of(datapath: &Datapath) -> Self {
         Self {
             front_end: datapath.front_end,
             stages: datapath.stages,
@@ -106,7 +106,7 @@ impl Lines {
 
     /// The same lines, with a mode that the compiler knows: it leaves no choice in the loops.
     #[inline(always)]
-    fn rounded_by(self, mode: Rounding) -> Self {
+    pub(super) fn rounded_by(self, mode: Rounding) -> Self {
         Self {
             front_end: self.front_end.rounded_by(mode),
             stages: self.stages.map(|stages| stages.map(|stage| stage.rounded_by(mode))),
@@ -135,7 +135,7 @@ impl Lines {
     }
 
     /// The mode of every line, where they have one in common.
-    fn rounding(&self) -> Option<Rounding> {
+    pub(super) fn rounding(&self) -> Option<Rounding> {
         let front_end = self.front_end.rounding();
         let stages = self.stages.iter().flatten().map(MultiplyAdd::rounding);
         let divider = self.divider.iter().flat_map(|d| [d.rounding, d.divisor.rounding()]);

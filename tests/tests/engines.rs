@@ -1,0 +1,45 @@
+//! Every way of running the pipeline gives the same bits, over random configurations.
+
+use blysk_tests::configurations::{Random, inputs, random};
+use hw_model::datapath::Block;
+use hw_model::design::Design;
+
+/// Seed of the configurations.
+const SEED: u64 = 7;
+/// Configurations tried; about two thirds of them make hardware.
+const CONFIGURATIONS: u64 = 400;
+
+fn designs() -> impl Iterator<Item = (Random, Design)> {
+    (0..CONFIGURATIONS).filter_map(|stream| {
+        let mut source = Random::new(SEED, stream);
+        let design = Design::new(random(&mut source)).ok()?;
+        Some((source, design))
+    })
+}
+
+/// Runs of consecutive x, across the cut, 0 and 1 wherever the input format goes there.
+#[test]
+fn a_run_is_a_block_is_the_ranks() {
+    let mut block = Block::default();
+    let mut compared = 0;
+    for (mut source, design) in designs() {
+        let datapath = design.datapath();
+        let format = datapath.formats().input;
+        let address = source.integer(0, design.rom().depth() as i64) as u32;
+        let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
+        for first in inputs(&mut source, datapath, cut, 24) {
+            let from = (first - source.integer(0, 300)).max(format.min_bits());
+            let count = source.integer(1, 400).min(format.max_bits() - from + 1);
+            let xs: Vec<i64> = (from..from + count).collect();
+            let mut run = vec![-1; xs.len()];
+            datapath.evaluate_run(address, from, &mut run);
+            datapath.evaluate_block(address, &xs, &mut block);
+            assert_eq!(run, block.intensities, "{} {address} {from}", design.config().to_json());
+            for (&x, &intensity) in xs.iter().zip(&run).step_by(37) {
+                assert_eq!(intensity, datapath.evaluate(address, x).intensity, "{address} {x}");
+            }
+            compared += xs.len();
+        }
+    }
+    assert!(compared > 100_000, "{compared}");
+}
