@@ -65,15 +65,15 @@ impl Datapath {
     }
 }
 
-/// The block in the narrow lane, compiled once for each vector width named here; the machine's own is
-/// chosen at run time. Integers give the same bits in all of them.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+/// The block in the narrow lane, compiled once for each vector width named here; the first that the
+/// machine has is chosen at run time. Integers give the same bits in all of them.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
     Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &Registers::WHOLE);
 }
 
 /// The same with trimmed registers.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_row(
     datapath: &Datapath,
     row: &Row,

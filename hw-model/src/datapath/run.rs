@@ -40,25 +40,25 @@ impl Datapath {
     }
 }
 
-// Each compiled for the vector widths named, the machine's own chosen at run time. Integers give the same
+// Each compiled for the vector widths named, the first that the machine has chosen at run time. Integers give the same
 // bits in all of them. `long` are those whose division needs as wide a lane as their products.
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn half_run(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
     lines.run::<Half, i32>(row, x, intensities);
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn half_run_long(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
     lines.run::<Half, i64>(row, x, intensities);
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_run(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
     lines.run::<i64, i32>(row, x, intensities);
 }
 
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_run_long(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
     lines.run::<i64, i64>(row, x, intensities);
 }

@@ -146,7 +146,7 @@ pub fn sweep_row(design: &Design, address: u32, xs: Xs<'_>) -> RowErrors {
     for (index, total) in totals.iter().enumerate() {
         if total.reach(floors) {
             xs.fill(index, &mut block);
-            sweep.settle(&block, floors, &mut errors);
+            settle(&mut sweep, &block, floors, &mut errors);
         }
     }
     errors
@@ -164,11 +164,17 @@ fn greatest(errors: &[f64]) -> f64 {
     lanes.into_iter().chain(rest.iter().copied()).fold(0.0, more)
 }
 
-/// Compiled for the vector widths named here, the machine's own chosen at run time. Rust never fuses or
+/// Compiled for the vector widths named here; the first that the machine has is chosen at run time. Rust never fuses or
 /// reorders floating-point operations, so the results are the same in all of them.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn see(sweep: &mut Sweep<'_>, xs: &[i64], errors: &mut RowErrors) -> Totals {
     sweep.see(xs, errors)
+}
+
+/// See [`see`].
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn settle(sweep: &mut Sweep<'_>, xs: &[i64], floors: [f64; 2], errors: &mut RowErrors) {
+    sweep.settle(xs, floors, errors);
 }
 
 /// What is known of the total errors of a block: on all of it, and on the part of it on the epicentre.
@@ -183,6 +189,9 @@ struct Totals {
 /// Errors below this are none: x^n may be taken as 0 where it is less. No output has such an ulp, and the peak of
 /// a row is the error at some x where either the hardware or x^n shows something.
 const NEGLIGIBLE: f64 = 1e-60;
+
+/// Stands for the greatest error of no samples.
+const NOWHERE: f64 = -1.0;
 
 impl Totals {
     /// What the greatest exact errors of all blocks reach at least.
@@ -296,12 +305,14 @@ impl<'a> Sweep<'a> {
         let errors = &mut self.errors[..xs.len()];
         difference(&self.hardware[..xs.len()], powers, errors);
         let first = xs.partition_point(|&x| x < self.epicentre);
-        let greatest = [greatest(errors), greatest(&errors[first..])];
+        let on_epicentre = if first < xs.len() { greatest(&errors[first..]) } else { NOWHERE };
+        let greatest = [greatest(errors), on_epicentre];
         let slack = slack(relative, top, greatest[0], config.output.ulp());
         Totals { greatest, slack }
     }
 
     /// The exact errors wherever one could be the greatest.
+    #[inline(always)]
     fn settle(&mut self, xs: &[i64], floors: [f64; 2], errors: &mut RowErrors) {
         self.evaluate(xs);
         let totals = self.totals(xs);
