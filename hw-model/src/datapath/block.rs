@@ -86,7 +86,7 @@ fn narrow_row(
 }
 
 /// The lines of a data path, out of their ranks.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Lines {
     pub(super) front_end: FrontEnd,
     pub(super) stages: Option<[MultiplyAdd; 3]>,

@@ -16,6 +16,7 @@
 mod altered;
 mod block;
 pub mod clamp;
+mod flight;
 pub mod formats;
 pub mod front_end;
 mod keep;
@@ -28,6 +29,7 @@ pub mod stage;
 pub mod tail;
 
 pub use block::Block;
+pub use flight::{Flight, Logic};
 pub use keep::Damage;
 pub use ranks::{Datapath, register_name};
 pub use signals::{Register, Signals, Status};

@@ -64,17 +64,17 @@ fn narrow_run_long(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
 }
 
 /// What is known of the lines when a loop over them is compiled.
-trait Known {
+pub(super) trait Known {
     /// The same lines, with what is known of them as constants.
     fn lines(lines: Lines) -> Lines;
 }
 
 /// Nothing.
-struct Anything;
+pub(super) struct Anything;
 
 /// Every line rounds to the nearest, a tie up (otherwise down), and is plain, in the centred form, which subtracts
 /// (otherwise in the power form).
-struct Plain<const NEAREST: bool, const SUBTRACT: bool>;
+pub(super) struct Plain<const NEAREST: bool, const SUBTRACT: bool>;
 
 impl Known for Anything {
     #[inline(always)]
@@ -99,25 +99,31 @@ impl<const NEAREST: bool, const SUBTRACT: bool> Known for Plain<NEAREST, SUBTRAC
 }
 
 impl Lines {
+    /// The mode of every line, and whether they are of the centred form, where they have one in common and are
+    /// plain.
+    pub(super) fn plainly_rounded(&self) -> Option<(Rounding, bool)> {
+        let mode = self.rounding()?;
+        let plain = |centred: &bool| {
+            let alike = |stage: &MultiplyAdd| stage.is_plain() && stage.subtracts() == *centred;
+            self.front_end.is_plain(*centred) && self.stages.iter().flatten().all(alike)
+        };
+        [true, false].into_iter().find(plain).map(|centred| (mode, centred))
+    }
+
     /// A run, products in lanes `L` and divisions in lanes `D`.
     #[inline(always)]
     fn run<L: Lane, D: Lane>(&self, row: &Row, x: i64, intensities: &mut [i64]) {
-        let stages = || self.stages.iter().flatten();
-        let plain = |subtract| {
-            let same = |stage: &MultiplyAdd| stage.is_plain() && stage.subtracts() == subtract;
-            self.front_end.is_plain(subtract) && stages().all(same)
-        };
-        match self.rounding() {
-            Some(Rounding::NearestUp) if plain(true) => {
+        match self.plainly_rounded() {
+            Some((Rounding::NearestUp, true)) => {
                 self.pieces::<L, D, Plain<true, true>>(row, x, intensities);
             }
-            Some(Rounding::NearestUp) if plain(false) => {
+            Some((Rounding::NearestUp, false)) => {
                 self.pieces::<L, D, Plain<true, false>>(row, x, intensities);
             }
-            Some(Rounding::Floor) if plain(true) => {
+            Some((Rounding::Floor, true)) => {
                 self.pieces::<L, D, Plain<false, true>>(row, x, intensities);
             }
-            Some(Rounding::Floor) if plain(false) => {
+            Some((Rounding::Floor, false)) => {
                 self.pieces::<L, D, Plain<false, false>>(row, x, intensities);
             }
             _ => self.pieces::<L, D, Anything>(row, x, intensities),

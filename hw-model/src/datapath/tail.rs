@@ -33,6 +33,30 @@ pub struct Division<L> {
     pub digits: L,
 }
 
+impl Division<i64> {
+    /// In the lanes of the arithmetic.
+    #[inline(always)]
+    pub(super) fn widened<L: Lane>(self) -> Division<L> {
+        Division {
+            divisor: L::from_bits(self.divisor),
+            remainder: L::from_bits(self.remainder),
+            digits: L::from_bits(self.digits),
+        }
+    }
+}
+
+impl<L: Lane> Division<L> {
+    /// As registers hold it.
+    #[inline(always)]
+    pub(super) fn narrowed(self) -> Division<i64> {
+        Division {
+            divisor: self.divisor.to_bits(),
+            remainder: self.remainder.to_bits(),
+            digits: self.digits.to_bits(),
+        }
+    }
+}
+
 /// The divider of one configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Divider {
