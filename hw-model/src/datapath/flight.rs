@@ -113,8 +113,8 @@ impl Datapath {
 /// What lies between the ranks, with what is known of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Logic {
-    lines: Lines,
-    plain: Option<(Rounding, bool)>,
+    pub(super) lines: Lines,
+    pub(super) plain: Option<(Rounding, bool)>,
 }
 
 impl Logic {

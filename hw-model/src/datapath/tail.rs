@@ -95,6 +95,14 @@ impl Divider {
         self.digit_count.div_ceil(self.digits_per_stage)
     }
 
+    /// Quotient bits that stage `index` finds.
+    #[inline(always)]
+    #[must_use]
+    pub fn digits_of_stage(&self, index: u32) -> u32 {
+        let done = (index * self.digits_per_stage).min(self.digit_count);
+        self.digits_per_stage.min(self.digit_count - done)
+    }
+
     /// True where a rank of registers takes in what quotient bit `digit` (0 is the first) leaves.
     #[inline(always)]
     #[must_use]
@@ -132,9 +140,7 @@ impl Divider {
     /// The quotient bits of stage `index` (0 is the first); the last stage may find fewer.
     #[inline(always)]
     pub fn digit_stage<L: Lane>(&self, index: u32, division: Division<L>) -> Division<L> {
-        let done = (index * self.digits_per_stage).min(self.digit_count);
-        let count = self.digits_per_stage.min(self.digit_count - done);
-        (0..count).fold(division, |division, _| self.digit(division))
+        (0..self.digits_of_stage(index)).fold(division, |division, _| self.digit(division))
     }
 
     /// The finished quotient in the output's unit, rounded once, at most `one`.
