@@ -85,6 +85,21 @@ fn narrow_row(
     Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &registers);
 }
 
+/// What one segment brings to the polynomial.
+#[derive(Clone, Copy)]
+struct Piece<L> {
+    start: L,
+    shift: u32,
+    c: [L; 4],
+}
+
+impl<L: Lane> Piece<L> {
+    #[inline(always)]
+    fn new(row: &Row, start: L, shift: u32) -> Self {
+        Self { start, shift, c: FieldName::COEFFICIENTS.map(|name| L::from_bits(row.get(name))) }
+    }
+}
+
 /// The lines of a data path, out of their ranks.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lines {
@@ -193,12 +208,15 @@ impl Lines {
         let Some([stage1, stage2, stage3]) = &self.stages else {
             return;
         };
-        let [c3, c2, c1, c0] = [FieldName::C3, FieldName::C2, FieldName::C1, FieldName::C0]
-            .map(|name| L::from_bits(row.get(name)));
-        let (one, shift) = (L::from_bits(self.output_one), row.shift());
+        let one = L::from_bits(self.output_one);
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let first = Piece::<L>::new(row, L::from_bits(self.front_end.one), row.shift());
+        let second = Piece::<L>::new(&row.in_outer(), hand_over, row.shift_outer());
         for ((&x, &region), intensity) in xs.iter().zip(regions).zip(intensities) {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            let v = keep.v.keep(self.front_end.variable(x, region, shift));
+            let outer = self.front_end.is_outer(x, region, hand_over);
+            let Piece { start, shift, c: [c0, c1, c2, c3] } = if outer { second } else { first };
+            let v = keep.v.keep(self.front_end.variable(x, region, start, shift));
             let t1 = keep.t[0].keep(stage1.apply(c3, v, c2));
             let t2 = keep.t[1].keep(stage2.apply(t1, v, c1));
             let t3 = keep.t[2].keep(stage3.apply(t2, v, c0));

@@ -167,14 +167,23 @@ impl Datapath {
         } else {
             self.front_end.region(given, L::from_bits(before.row.get(FieldName::Cut)))
         };
+        let row = &before.row;
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let outer = self.front_end.is_outer(x, region, hand_over);
+        let (start, shift, row) = if outer {
+            (hand_over, row.shift_outer(), row.in_outer())
+        } else {
+            (L::from_bits(self.front_end.one), row.shift(), *row)
+        };
         Signals {
             x: x.to_bits(),
             region,
+            row,
             status: before
                 .status
                 .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
                 .with(Status::FACING_AWAY, given < L::ZERO),
-            v: self.front_end.variable(x, region, before.row.shift()).to_bits(),
+            v: self.front_end.variable(x, region, start, shift).to_bits(),
             tail_x: self.front_end.tail_x(x, region).to_bits(),
             ..*before
         }
@@ -280,21 +289,28 @@ impl Datapath {
             list.add("x", self.formats.input, true, |s| s.x);
             self.field(list, FieldName::Cut, true, |s| s.row.get(FieldName::Cut));
             self.field(list, FieldName::Shift, true, |s| s.row.get(FieldName::Shift));
+            self.field(list, FieldName::HandOver, true, |s| s.row.get(FieldName::HandOver));
+            self.field(list, FieldName::ShiftOuter, true, |s| s.row.get(FieldName::ShiftOuter));
         }
     }
 
     fn polynomial_registers(&self, rank: usize, formats: &PolynomialFormats, list: &mut List) {
-        let computed = rank == 0;
         // c3 and c2 meet in stage 1, c1 in stage 2, c0 in stage 3.
         if rank < HEAD_RANKS {
-            self.field(list, FieldName::C3, computed, |s| s.row.get(FieldName::C3));
-            self.field(list, FieldName::C2, computed, |s| s.row.get(FieldName::C2));
+            self.coefficient(list, rank, FieldName::C3, |s| s.row.get(FieldName::C3));
+            self.coefficient(list, rank, FieldName::C2, |s| s.row.get(FieldName::C2));
         }
         if rank < HEAD_RANKS + 1 {
-            self.field(list, FieldName::C1, computed, |s| s.row.get(FieldName::C1));
+            self.coefficient(list, rank, FieldName::C1, |s| s.row.get(FieldName::C1));
         }
         if rank < HEAD_RANKS + 2 {
-            self.field(list, FieldName::C0, computed, |s| s.row.get(FieldName::C0));
+            self.coefficient(list, rank, FieldName::C0, |s| s.row.get(FieldName::C0));
+        }
+        if rank == 0 {
+            self.field(list, FieldName::C3Outer, true, |s| s.row.get(FieldName::C3Outer));
+            self.field(list, FieldName::C2Outer, true, |s| s.row.get(FieldName::C2Outer));
+            self.field(list, FieldName::C1Outer, true, |s| s.row.get(FieldName::C1Outer));
+            self.field(list, FieldName::C0Outer, true, |s| s.row.get(FieldName::C0Outer));
         }
         match rank {
             0 => {}
@@ -344,6 +360,48 @@ impl Datapath {
             && matches!(field.place, Place::Stored { .. })
         {
             list.add(name.name(), field.format, computed, bits);
+        }
+    }
+
+    /// A coefficient of the first segment in rank 0, that of the answering segment from rank 1 on.
+    fn coefficient(
+        &self,
+        list: &mut List,
+        rank: usize,
+        name: FieldName,
+        bits: fn(&Signals) -> i64,
+    ) {
+        if rank == 0 {
+            self.field(list, name, true, bits);
+        } else if self.is_carried(name)
+            && let Some(field) = self.rom.layout().field(name)
+        {
+            list.add(name.name(), field.format, rank == 1 && self.has_two_segments(), bits);
+        }
+    }
+
+    /// True where the polynomial has a second segment.
+    #[must_use]
+    pub const fn has_two_segments(&self) -> bool {
+        self.formats.hand_over.is_some()
+    }
+
+    /// True where a coefficient takes a register behind the front end: it is not the same constant in
+    /// every row and segment.
+    #[must_use]
+    pub fn is_carried(&self, name: FieldName) -> bool {
+        let place = |name| self.rom.layout().field(name).map(|field| field.place);
+        let outer = FieldName::COEFFICIENTS
+            .into_iter()
+            .zip(FieldName::OUTER_COEFFICIENTS)
+            .find(|&(inner, _)| inner == name)
+            .and_then(|(_, outer)| place(outer));
+        match (place(name), outer) {
+            (Some(Place::Constant { .. }) | None, None) => false,
+            (Some(Place::Constant { bits }), Some(Place::Constant { bits: outer })) => {
+                bits != outer
+            }
+            _ => true,
         }
     }
 

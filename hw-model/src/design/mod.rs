@@ -22,7 +22,7 @@ use crate::format::QFormat;
 use crate::quantise::QuantiseError;
 use crate::rom::{FieldName, Rom, Row};
 
-pub use real_row::RealRow;
+pub use real_row::{Outer, RealRow};
 pub use rom_row::RomRow;
 pub use shares::Share;
 
@@ -158,6 +158,8 @@ impl Parts {
                 tail: None,
                 cut: None,
                 shift: None,
+                hand_over: None,
+                shift_outer: None,
             },
             bounds: vec![Bound::default(); rows.len()],
             lane_bits: Vec::new(),

@@ -1,6 +1,6 @@
 //! Widths, ROM fields and lines of the polynomial.
 
-use super::{DesignError, Parts, RealRow};
+use super::{DesignError, Outer, Parts, RealRow};
 use crate::budget::error::{FractionBits, Register, Sensitivity, Surroundings};
 use crate::budget::range::{Carried, Range, ranges};
 use crate::budget::search::Search;
@@ -18,12 +18,12 @@ use crate::rounding::Rounding;
 /// Coefficients are constants of the design: they are rounded to the nearest whatever the lines do.
 const COEFFICIENT_ROUNDING: Rounding = Rounding::NearestEven;
 
-/// c0, c1, c2, c3 with the registers and ROM fields they live in.
-const COEFFICIENTS: [(Register, FieldName); 4] = [
-    (Register::C0, FieldName::C0),
-    (Register::C1, FieldName::C1),
-    (Register::C2, FieldName::C2),
-    (Register::C3, FieldName::C3),
+/// c0, c1, c2, c3 with the registers and ROM fields they live in, of the first segment and of the second.
+const COEFFICIENTS: [(Register, FieldName, FieldName); 4] = [
+    (Register::C0, FieldName::C0, FieldName::C0Outer),
+    (Register::C1, FieldName::C1, FieldName::C1Outer),
+    (Register::C2, FieldName::C2, FieldName::C2Outer),
+    (Register::C3, FieldName::C3, FieldName::C3Outer),
 ];
 
 pub(super) fn derive(
@@ -34,11 +34,10 @@ pub(super) fn derive(
     if config.method == Method::Schlick {
         return Ok(None);
     }
-    let real_rows: Vec<RowPolynomial> =
-        rows.iter().filter_map(|row| row_polynomial(config, row)).collect();
+    let pieces = Pieces::of(config, rows);
     let surroundings = surroundings(config);
     let sensitivities: Vec<Sensitivity> =
-        real_rows.iter().map(|row| Sensitivity::of(*row, &surroundings)).collect();
+        pieces.all().map(|row| Sensitivity::of(row, &surroundings)).collect();
     let search = Search {
         sensitivities: &sensitivities,
         surroundings,
@@ -47,16 +46,47 @@ pub(super) fn derive(
         budget: config.error_budget_ulp,
     };
     let bits = search.run()?;
-    for (bound, of_row) in parts.bounds.iter_mut().zip(search.bounds(&bits)) {
-        bound.coefficient = of_row.coefficient;
-        bound.datapath = of_row.datapath;
+    for (address, of_piece) in pieces.addresses().zip(search.bounds(&bits)) {
+        // The row's is that of its worse segment.
+        if let Some(bound) = parts.bounds.get_mut(address)
+            && of_piece.total() >= bound.coefficient + bound.datapath
+        {
+            (bound.coefficient, bound.datapath) = (of_piece.coefficient, of_piece.datapath);
+        }
     }
-    let (coefficients, rom_rows) = quantise_rows(config, &real_rows, &bits, parts)?;
+    let (coefficients, rom_rows) = quantise_rows(config, &pieces, &bits, parts)?;
     let formats = line_formats(config, &rom_rows, coefficients, &bits)?;
     check_operands(config, &formats)?;
     front_end_fields(config, rows, parts)?;
+    outer_fields(&pieces, coefficients, parts);
     parts.formats.polynomial = Some(formats);
     Ok(Some(lines(config, &formats, parts)))
+}
+
+/// The polynomials of all rows: the first segments, and the second ones where rows have them.
+pub(super) struct Pieces {
+    first: Vec<RowPolynomial>,
+    outer: Vec<Option<RowPolynomial>>,
+}
+
+impl Pieces {
+    pub(super) fn of(config: &Config, rows: &[RealRow]) -> Self {
+        Self {
+            first: rows.iter().filter_map(|row| row_polynomial(config, row)).collect(),
+            outer: rows.iter().map(|row| row_outer(config, row)).collect(),
+        }
+    }
+
+    /// All of them, the first segments first.
+    pub(super) fn all(&self) -> impl Iterator<Item = RowPolynomial> {
+        self.first.iter().copied().chain(self.outer.iter().flatten().copied())
+    }
+
+    /// The rows that they belong to, in the same order.
+    fn addresses(&self) -> impl Iterator<Item = usize> {
+        let outer = self.outer.iter().enumerate().filter(|(_, outer)| outer.is_some());
+        (0..self.first.len()).chain(outer.map(|(address, _)| address))
+    }
 }
 
 /// What surrounds the polynomial: input, output, form and rounding.
@@ -90,41 +120,61 @@ pub(super) fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolyno
     let cubic = row.polynomial.as_ref()?;
     let (one, ulp) = (config.input.one(), config.input.ulp());
     let greatest = config.input.max_bits().min(one);
-    let answers = row.cut <= greatest;
+    // The first segment ends where it hands over.
+    let cut = row.cut.max(row.hand_over);
+    let answers = cut <= greatest;
     let in_u = |s: i64| s as f64 * ulp * f64::from(row.shift).exp2();
     let (coefficients, v) = match config.form {
         Form::Power => {
             let power = &cubic.power;
-            let v = (row.cut.min(greatest) as f64 * ulp, greatest as f64 * ulp);
+            let v = (cut.min(greatest) as f64 * ulp, greatest as f64 * ulp);
             ([power.d, power.c, power.b, power.a], v)
         }
         Form::Centred => {
             let scale = |power: u32| (-f64::from(power * row.shift)).exp2();
             let k = &cubic.centred;
-            let v = (0.0, if answers { in_u(one - row.cut) } else { 0.0 });
+            let v = (0.0, if answers { in_u(one - cut) } else { 0.0 });
             ([1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)], v)
         }
     };
     Some(RowPolynomial { exponent: row.exponent, shift: row.shift, coefficients, v, answers })
 }
 
+/// The second segment of a row, in v = (hand_over − x)·2^shift.
+fn row_outer(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
+    let Outer { segment, shift } = row.outer.as_ref()?;
+    let scale = |power: i32| (-f64::from(power * *shift as i32)).exp2();
+    let [c0, c1, c2, c3] = segment.c;
+    let greatest = config.input.max_bits().min(config.input.one());
+    let answers = row.cut < row.hand_over && row.cut <= greatest;
+    let length = (row.hand_over - row.cut).max(0) as f64 * config.input.ulp();
+    Some(RowPolynomial {
+        exponent: row.exponent,
+        shift: *shift,
+        coefficients: [c0, c1 * scale(1), c2 * scale(2), c3 * scale(3)],
+        v: (0.0, if answers { length * f64::from(*shift).exp2() } else { 0.0 }),
+        answers,
+    })
+}
+
 /// Quantises every coefficient, adds the ROM fields, and returns the rows as the ROM has them.
 fn quantise_rows(
     config: &Config,
-    rows: &[RowPolynomial],
+    pieces: &Pieces,
     bits: &FractionBits,
     parts: &mut Parts,
 ) -> Result<([QFormat; 4], Vec<RowPolynomial>), DesignError> {
-    let mut rom_rows = rows.to_vec();
+    let rows: Vec<RowPolynomial> = pieces.all().collect();
+    let mut rom_rows = rows.clone();
     let mut formats = Vec::new();
     // c3 first: the packing order of the ROM word.
-    for (index, (register, field)) in COEFFICIENTS.into_iter().enumerate().rev() {
+    for (index, (register, field, outer)) in COEFFICIENTS.into_iter().enumerate().rev() {
         let fraction = bits[register as usize];
         let refuse = |exponent: f64| {
             move |source| DesignError::Quantise { field: field.name(), exponent, source }
         };
         let mut range = Range::zero();
-        for row in rows {
+        for row in &rows {
             let scaled = round_scaled(row.coefficients[index], fraction, COEFFICIENT_ROUNDING)
                 .map_err(refuse(row.exponent))?;
             let value = scaled as f64 * (-f64::from(fraction)).exp2();
@@ -139,11 +189,27 @@ fn quantise_rows(
             rom_row.coefficients[index] = real(integer, format);
             integers.push(integer);
         }
+        let further = integers.split_off(pieces.first.len());
         parts.add_field(field, format, integers.into_iter());
+        // The rest of the addresses are those of the second segments.
+        for (address, integer) in pieces.addresses().skip(pieces.first.len()).zip(further) {
+            if let Some(row) = parts.rom_rows.get_mut(address) {
+                row.set(outer, integer);
+            }
+        }
         formats.insert(0, format);
     }
     let formats = std::array::from_fn(|index| formats[index]);
     Ok((formats, rom_rows))
+}
+
+/// The second segments' coefficients take places of their own in the word, of the same formats.
+fn outer_fields(pieces: &Pieces, coefficients: [QFormat; 4], parts: &mut Parts) {
+    if pieces.outer.iter().any(Option::is_some) {
+        for (index, (_, _, outer)) in COEFFICIENTS.into_iter().enumerate().rev() {
+            parts.fields.push((outer, coefficients[index]));
+        }
+    }
 }
 
 fn line_formats(
@@ -202,6 +268,15 @@ fn front_end_fields(
         let shift = integer_format("shift", greatest(|row| row.shift.into()), 0)?;
         parts.add_field(FieldName::Shift, shift, rows.iter().map(|row| row.shift.into()));
         parts.formats.shift = Some(shift);
+    }
+    if rows.iter().any(|row| row.outer.is_some()) {
+        let hand_over = integer_format("hand_over", greatest(|row| row.hand_over), fraction)?;
+        parts.add_field(FieldName::HandOver, hand_over, rows.iter().map(|row| row.hand_over));
+        parts.formats.hand_over = Some(hand_over);
+        let of = |row: &RealRow| row.outer.map_or(0, |outer| outer.shift.into());
+        let shift = integer_format("shift_outer", greatest(of), 0)?;
+        parts.add_field(FieldName::ShiftOuter, shift, rows.iter().map(of));
+        parts.formats.shift_outer = Some(shift);
     }
     Ok(())
 }

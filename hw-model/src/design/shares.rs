@@ -1,6 +1,6 @@
 //! What each register adds to the error bound, and what one bit less of it would cost.
 
-use super::polynomial::{row_polynomial, stated, surroundings};
+use super::polynomial::{Pieces, stated, surroundings};
 use super::tail::row_tail;
 use super::{Design, RealRow};
 use crate::budget::RowTail;
@@ -47,7 +47,8 @@ impl Design {
         let Some(formats) = &self.datapath.formats().polynomial else { return Vec::new() };
         let config = &self.config;
         let surroundings = surroundings(config);
-        let rows: Vec<Sensitivity> = of_rows(&self.rows, |row| row_polynomial(config, row))
+        let rows: Vec<Sensitivity> = Pieces::of(config, &self.rows)
+            .all()
             .map(|row| Sensitivity::of(row, &surroundings))
             .collect();
         let [c0, c1, c2, c3] = formats.coefficients;
