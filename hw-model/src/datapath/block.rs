@@ -87,16 +87,30 @@ fn narrow_row(
 
 /// What one segment brings to the polynomial.
 #[derive(Clone, Copy)]
-struct Piece<L> {
-    start: L,
-    shift: u32,
-    c: [L; 4],
+pub(super) struct Segment<L> {
+    pub(super) start: L,
+    pub(super) shift: u32,
+    /// c0 to c3.
+    pub(super) c: [L; 4],
 }
 
-impl<L: Lane> Piece<L> {
+impl<L: Lane> Segment<L> {
+    /// The first, which counts from 1.
     #[inline(always)]
-    fn new(row: &Row, start: L, shift: u32) -> Self {
-        Self { start, shift, c: FieldName::COEFFICIENTS.map(|name| L::from_bits(row.get(name))) }
+    pub(super) fn first(row: &Row, one: L) -> Self {
+        Self::of(row, FieldName::COEFFICIENTS, one, row.shift())
+    }
+
+    /// The second, which counts from where the first hands over.
+    #[inline(always)]
+    pub(super) fn outer(row: &Row) -> Self {
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        Self::of(row, FieldName::OUTER_COEFFICIENTS, hand_over, row.shift_outer())
+    }
+
+    #[inline(always)]
+    fn of(row: &Row, names: [FieldName; 4], start: L, shift: u32) -> Self {
+        Self { start, shift, c: names.map(|name| L::from_bits(row.get(name))) }
     }
 }
 
@@ -210,12 +224,12 @@ impl Lines {
         };
         let one = L::from_bits(self.output_one);
         let hand_over = L::from_bits(row.get(FieldName::HandOver));
-        let first = Piece::<L>::new(row, L::from_bits(self.front_end.one), row.shift());
-        let second = Piece::<L>::new(&row.in_outer(), hand_over, row.shift_outer());
+        let first = Segment::first(row, L::from_bits(self.front_end.one));
+        let second = Segment::outer(row);
         for ((&x, &region), intensity) in xs.iter().zip(regions).zip(intensities) {
             let x = self.front_end.clamp_input(L::from_bits(x));
             let outer = self.front_end.is_outer(x, region, hand_over);
-            let Piece { start, shift, c: [c0, c1, c2, c3] } = if outer { second } else { first };
+            let Segment { start, shift, c: [c0, c1, c2, c3] } = if outer { second } else { first };
             let v = keep.v.keep(self.front_end.variable(x, region, start, shift));
             let t1 = keep.t[0].keep(stage1.apply(c3, v, c2));
             let t2 = keep.t[1].keep(stage2.apply(t1, v, c1));

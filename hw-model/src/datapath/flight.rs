@@ -27,6 +27,8 @@ pub struct Flight {
     pub(super) x: i64,
     pub(super) clamped_x: i64,
     pub(super) region: Region,
+    /// The second segment answers.
+    pub(super) outer: bool,
     /// As fetched, from the front end on, and in the last rank.
     pub(super) status: [Status; 3],
     pub(super) v: i64,
@@ -89,10 +91,11 @@ impl Datapath {
         let division = rank
             .checked_sub(MIDDLE)
             .and_then(|index| flight.divisions.get(index).or(flight.divisions.last()));
+        let row = self.row(flight.address);
         Signals {
             address: flight.address,
             x: if rank == 0 { flight.x } else { flight.clamped_x },
-            row: self.row(flight.address),
+            row: if flight.outer && rank > 0 { row.in_outer() } else { row },
             status: match rank {
                 0 => fetched,
                 _ if rank == last => result,
@@ -148,19 +151,18 @@ impl Edge<'_> {
             self.front_end::<L>(&lines, flight);
         }
         if let Some(stages) = &lines.stages {
-            const FIELDS: [(FieldName, FieldName); 3] = [
-                (FieldName::C3, FieldName::C2),
-                (FieldName::C3, FieldName::C1),
-                (FieldName::C3, FieldName::C0),
-            ];
             for (index, stage) in stages.iter().enumerate() {
                 if let Some(flight) = self.loaded(MIDDLE + index) {
-                    let (first, addend) = FIELDS[index];
-                    let row = self.datapath.row_at(self.flights[flight].row);
                     let flight = &mut self.flights[flight];
-                    let multiplicand =
-                        if index == 0 { row.get(first) } else { flight.t[index - 1] };
-                    let [m, v, a] = [multiplicand, flight.v, row.get(addend)].map(L::from_bits);
+                    let row = self.datapath.row_at(flight.row);
+                    let names = match flight.outer {
+                        true => FieldName::OUTER_COEFFICIENTS,
+                        false => FieldName::COEFFICIENTS,
+                    };
+                    let [c0, c1, c2, c3] = names.map(|name| row.get(name));
+                    let (multiplicand, addend) =
+                        [(c3, c2), (flight.t[0], c1), (flight.t[1], c0)][index];
+                    let [m, v, a] = [multiplicand, flight.v, addend].map(L::from_bits);
                     flight.t[index] = stage.apply(m, v, a).to_bits();
                 }
             }
@@ -195,7 +197,13 @@ impl Edge<'_> {
         flight.status[1] = flight.status[0]
             .with(Status::ABOVE_ONE, given > L::from_bits(front_end.one))
             .with(Status::FACING_AWAY, given < L::ZERO);
-        flight.v = front_end.variable(x, region, row.shift()).to_bits();
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        flight.outer = front_end.is_outer(x, region, hand_over);
+        let (start, shift) = match flight.outer {
+            true => (hand_over, row.shift_outer()),
+            false => (L::from_bits(front_end.one), row.shift()),
+        };
+        flight.v = front_end.variable(x, region, start, shift).to_bits();
         flight.tail_x = front_end.tail_x(x, region).to_bits();
     }
 

@@ -49,7 +49,11 @@ pub struct Requests {
 struct Coefficients {
     c: [Values; 4],
     cut: Values,
+    /// Where v counts from: 1, or where the first segment hands over to the second.
+    start: Values,
     shift: Values,
+    /// 1 where the second segment answers.
+    outer: Values,
     tail: [Values; 2],
 }
 
@@ -68,7 +72,14 @@ impl Datapath {
     #[must_use]
     pub fn requests(&self) -> Box<Requests> {
         let division = Divisions { divisors: ZEROS, remainders: ZEROS, digits: ZEROS };
-        let row = Coefficients { c: [ZEROS; 4], cut: ZEROS, shift: ZEROS, tail: [ZEROS; 2] };
+        let row = Coefficients {
+            c: [ZEROS; 4],
+            cut: ZEROS,
+            start: [self.front_end.one; REQUESTS],
+            shift: ZEROS,
+            outer: ZEROS,
+            tail: [ZEROS; 2],
+        };
         Box::new(Requests {
             addresses: [0; REQUESTS],
             xs: ZEROS,
@@ -113,6 +124,7 @@ impl Requests {
             row: if known { self.addresses[request] } else { 0 },
             x: self.xs[request],
             clamped_x: self.clamped_xs[request],
+            outer: self.row.outer[request] != 0,
             region: match self.regions[request] {
                 1 => Region::Polynomial,
                 2 => Region::Tail,
@@ -157,22 +169,45 @@ fn power(lines: &Lines, requests: &mut Requests) {
 
 impl Requests {
     fn collect(&mut self, datapath: &Datapath) {
-        let Coefficients { c, cut, shift, tail } = &mut self.row;
+        let Coefficients { c, cut, shift, tail, .. } = &mut self.row;
         let tail_is_there = datapath.divider.is_some();
         for (request, &address) in self.addresses.iter().enumerate() {
             let known = datapath.rom.row(address);
             self.known[request] = i64::from(known.is_some());
             let row = known.unwrap_or_else(|| datapath.row_at(0));
-            c[0][request] = row.get(FieldName::C0);
-            c[1][request] = row.get(FieldName::C1);
-            c[2][request] = row.get(FieldName::C2);
-            c[3][request] = row.get(FieldName::C3);
+            for (values, name) in c.iter_mut().zip(FieldName::COEFFICIENTS) {
+                values[request] = row.get(name);
+            }
             cut[request] = row.get(FieldName::Cut);
             shift[request] = row.get(FieldName::Shift);
             if tail_is_there {
                 tail[0][request] = row.get(FieldName::TailA);
                 tail[1][request] = row.get(FieldName::TailB);
             }
+        }
+        if datapath.has_two_segments() {
+            self.collect_second_segment(datapath);
+        }
+    }
+
+    /// The second segment's coefficients instead, where it answers.
+    fn collect_second_segment(&mut self, datapath: &Datapath) {
+        let front_end = &datapath.front_end;
+        let Coefficients { c, start, shift, outer, .. } = &mut self.row;
+        for (request, (&address, &x)) in self.addresses.iter().zip(&self.xs).enumerate() {
+            let known = self.known[request] != 0;
+            let row = datapath.row_at(if known { address } else { 0 });
+            let region = front_end.region(x, row.get(FieldName::Cut));
+            let hand_over = row.get(FieldName::HandOver);
+            let second = known && front_end.is_outer(front_end.clamp_input(x), region, hand_over);
+            let names =
+                if second { FieldName::OUTER_COEFFICIENTS } else { FieldName::COEFFICIENTS };
+            for (values, name) in c.iter_mut().zip(names) {
+                values[request] = row.get(name);
+            }
+            start[request] = if second { hand_over } else { front_end.one };
+            shift[request] = row.get(if second { FieldName::ShiftOuter } else { FieldName::Shift });
+            outer[request] = second.into();
         }
     }
 
@@ -197,7 +232,10 @@ impl Requests {
                 .with(Status::NO_WORD, !known)
                 .with(Status::ABOVE_ONE, given > L::from_bits(front_end.one))
                 .with(Status::FACING_AWAY, given < L::ZERO);
-            let v = front_end.variable(x, region, self.row.shift[request] as u32);
+            let v = {
+                let start = L::from_bits(self.row.start[request]);
+                front_end.variable(x, region, start, self.row.shift[request] as u32)
+            };
             self.clamped_xs[request] = x.to_bits();
             self.regions[request] = region as i64;
             self.status[0][request] = status.bits().into();

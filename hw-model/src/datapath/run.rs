@@ -1,7 +1,7 @@
 //! Consecutive x of one exponent: a sweep.
 //!
-//! x need not be stored, and needs no region of its own: between two of the places 0, cut and greatest x
-//! one part answers for all. So each piece of the run is a loop without a choice in it, and a piece whose
+//! x need not be stored, and needs no region of its own: between two of the places 0, cut, hand-over and
+//! greatest x one part answers for all. So each piece of the run is a loop without a choice in it, and a piece whose
 //! answer is zero is filled. What is known of a configuration (its rounding mode, that its lines are
 //! plain, how wide a lane they need) is settled before the loop, which is compiled for each case.
 
@@ -10,7 +10,7 @@ use multiversion::multiversion;
 use crate::rom::{FieldName, Row};
 use crate::rounding::{Lane, Rounding};
 
-use super::block::Lines;
+use super::block::{Lines, Segment};
 use super::clamp::clamp;
 use super::front_end::Region;
 use super::lanes::Half;
@@ -132,8 +132,9 @@ impl Lines {
 
     #[inline(always)]
     fn pieces<L: Lane, D: Lane, K: Known>(&self, row: &Row, mut x: i64, mut rest: &mut [i64]) {
-        let (cut, end) = (row.get(FieldName::Cut), self.front_end.greatest + 1);
-        for until in [0, cut.min(end), end, i64::MAX] {
+        let end = self.front_end.greatest + 1;
+        let [cut, hand_over] = [FieldName::Cut, FieldName::HandOver].map(|name| row.get(name));
+        for until in [0, cut.min(end), hand_over.min(end), end, i64::MAX] {
             let count = usize::try_from(until.saturating_sub(x)).unwrap_or(0).min(rest.len());
             let (piece, others) = rest.split_at_mut(count);
             if !piece.is_empty() {
@@ -167,12 +168,19 @@ impl Lines {
         else {
             return;
         };
-        let [c3, c2, c1, c0] = [FieldName::C3, FieldName::C2, FieldName::C1, FieldName::C0]
-            .map(|name| L::from_bits(row.get(name)));
-        let (one, shift) = (L::from_bits(output_one), row.shift());
+        // One segment answers for all of the piece: see `pieces`.
+        let clamped = front_end.clamp_input(L::from_bits(first));
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let Segment { start, shift, c: [c0, c1, c2, c3] } =
+            if front_end.is_outer(clamped, Region::Polynomial, hand_over) {
+                Segment::outer(row)
+            } else {
+                Segment::first(row, L::from_bits(front_end.one))
+            };
+        let one = L::from_bits(output_one);
         for (index, intensity) in piece.iter_mut().enumerate() {
             let x = front_end.clamp_input(L::from_bits(first + index as i64));
-            let v = front_end.variable(x, Region::Polynomial, shift);
+            let v = front_end.variable(x, Region::Polynomial, start, shift);
             let t1 = stage1.apply(c3, v, c2);
             let t2 = stage2.apply(t1, v, c1);
             let t3 = stage3.apply(t2, v, c0);
