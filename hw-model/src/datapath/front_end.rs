@@ -17,7 +17,7 @@
 //! does not reach 1), which the ranges of every row include, and the divider x = 0.
 //!
 //! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1 (with
-//! fitted shifts below 2 in both segments); it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
+//! fitted shifts below 1 in both segments); it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
 
 use crate::rounding::{Lane, Rounding, round_shift};
 

@@ -25,7 +25,7 @@ pub struct RealRow {
     /// The least x (in the input's unit) at which the first segment answers; the cut where it is the only one,
     /// and 0 in a configuration of one segment.
     pub hand_over: i64,
-    /// e = ⌊log2 n⌋ in the centred form (with a range fitted to the error, the greatest that keeps u below 2), 0
+    /// e = ⌊log2 n⌋ in the centred form (with a range fitted to the error, the greatest that keeps u below 1), 0
     /// in the power form.
     pub shift: u32,
 }
@@ -35,7 +35,7 @@ pub struct RealRow {
 pub struct Outer {
     /// The cubic, counted from the hand-over.
     pub segment: Segment,
-    /// The places its v is moved up, so that it stays below 2.
+    /// The places its v is moved up, so that it stays below 1.
     pub shift: u32,
 }
 
@@ -83,10 +83,16 @@ impl RealRow {
         };
         let fitted = minimax::segments(exponent, config.segments as usize, range)?;
         let end = |index: usize| fitted.ends.get(index).or(fitted.ends.last()).copied();
-        let (first, last) = (end(0).unwrap_or(1.0), end(usize::MAX).unwrap_or(1.0));
+        let last = end(usize::MAX).unwrap_or(1.0);
+        let alone = config.segments > 1 && fitted.further.is_empty();
+        // An x^n that is a cubic itself (n = 1, 2, 3) goes on in the second segment, so that u stays below 1.
+        let first = if alone { 0.5 * last } else { end(0).unwrap_or(1.0) };
         let hand_over = cut_bits(config, first);
         let start = (config.input.one() - hand_over) as f64 * config.input.ulp();
-        let outer = fitted.further.first().map(|segment| Outer {
+        let k = fitted.first.centred;
+        let same = Segment { start: 0.0, c: [1.0, k.k1, k.k2, k.k3] };
+        let further = fitted.further.first().or(alone.then_some(&same));
+        let outer = further.map(|segment| Outer {
             segment: segment.counted_from(start),
             shift: fitted_shift(last - start),
         });
@@ -126,7 +132,7 @@ impl RealRow {
     }
 }
 
-/// With fitted shifts, and where the multipliers' operands are limited, u = s·2^e stays below 2 with room for its rounding, so that
+/// Where the multipliers' operands are limited, u = s·2^e stays below 2 with room for its rounding, so that
 /// it has one integer bit. On the epicentre it is below 1.36 anyway; further down `hermite` goes beyond at n = 4
 /// only (2.75). `three_point` and `tangent` do at every fifth exponent, and being cut there they would
 /// jump, so without such a limit the bit is spent.
@@ -161,10 +167,12 @@ fn cut_bits(config: &Config, s: f64) -> i64 {
     config.input.one() - floor as i64
 }
 
-/// The greatest e that keeps length·2^e at [`GREATEST_U`] or below; 0 ≤ length ≤ 1. At most 62, for a
+/// The greatest e that keeps length·2^e below 1, with room for its rounding (0 where there is none);
+/// 0 ≤ length ≤ 1. Below 1 the powers of u do not multiply the last bit of a coefficient. At most 62, for a
 /// segment of no length.
 fn fitted_shift(length: f64) -> u32 {
-    if length > 0.0 { floor_log2((GREATEST_U / length).max(1.0)).min(62) } else { 62 }
+    const GREATEST: f64 = 1.0 - 1.0 / 128.0;
+    if length > 0.0 { floor_log2((GREATEST / length).max(1.0)).min(62) } else { 62 }
 }
 
 /// ⌊log2 n⌋ from the binary exponent of n ≥ 1: exact, where a logarithm could round up.

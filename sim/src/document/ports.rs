@@ -1,5 +1,6 @@
 //! Ports, parameters, status bits, and the ROM.
 
+use hw_model::config::Cut;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::quantise::decimal;
@@ -124,7 +125,7 @@ fn meaning(field: FieldName, design: &Design) -> &'static str {
         (FieldName::C0, true) => "value at x = 1",
         (FieldName::Cut, _) => "the least x at which the polynomial answers",
         (FieldName::Shift, _) if design.config().cut == Cut::Balanced => {
-            "e, the greatest that keeps u below 2; unsigned"
+            "e, the greatest that keeps u below 1; unsigned"
         }
         (FieldName::Shift, _) => "e = ⌊log2 n⌋, unsigned",
         (FieldName::TailA, _) => "A of x / (A − B·x)",

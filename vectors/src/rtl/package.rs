@@ -181,10 +181,14 @@ fn fields(datapath: &Datapath) -> Section {
         };
         let format = field.map(|field| field.format);
         let section = match name {
-            FieldName::Cut | FieldName::Shift | FieldName::HandOver | FieldName::ShiftOuter => {
-                section.width(&upper, format)
-            }
-            _ => section.format(&upper, format),
+            FieldName::C3
+            | FieldName::C2
+            | FieldName::C1
+            | FieldName::C0
+            | FieldName::TailA
+            | FieldName::TailB => section.format(&upper, format),
+            // No sign, or the first segment's.
+            _ => section.width(&upper, format),
         };
         section
             .integer(format!("{upper}_STORED"), stored)
