@@ -12,7 +12,7 @@ use hw_model::presets;
 use sim::analysis::sweep::{Xs, sweep_row};
 use sim::pipeline::{Inputs, Pipeline};
 
-const PRESETS: [&str; 5] = ["paper", "blooming", "tangent", "compact", "schlick"];
+const PRESETS: [&str; 6] = ["paper", "blooming", "tangent", "compact", "precise", "schlick"];
 /// n = 64.
 const ADDRESS: u32 = 63;
 /// Samples of a run: every 128th x of a preset's input.

@@ -8,7 +8,7 @@ use std::process::Stdio;
 use blysk_tests::bench;
 use blysk_tests::cli::CONFIGURATIONS;
 
-const PRESETS: [&str; 5] = ["paper", "blooming", "tangent", "compact", "schlick"];
+const PRESETS: [&str; 6] = ["paper", "blooming", "tangent", "compact", "precise", "schlick"];
 
 /// Columns of a terminal that a table may take.
 const WIDTH: usize = 100;
