@@ -1,0 +1,112 @@
+//! The model's own engines, each under the stimulus that the others get.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use hw_model::design::Design;
+use rayon::prelude::*;
+use sim::pipeline::{Inputs, Pipeline};
+use sim::stream::{CYCLES, Stream};
+
+use super::{SEED, Timed};
+
+/// x that are evaluated together in a sweep.
+const BLOCK: usize = 2048;
+
+/// A random request: the same numbers as in `harness.cpp`.
+pub(super) struct Stimulus(u64);
+
+impl Stimulus {
+    pub(super) const fn new() -> Self {
+        Self(SEED)
+    }
+
+    #[inline(always)]
+    pub(super) const fn next(&mut self) -> (u32, i64) {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 as u32 & 0xff, (self.0 >> 16 & 0x7f_ffff) as i64)
+    }
+}
+
+#[inline(always)]
+const fn sum(checksum: u64, intensity: i64, status: u8) -> u64 {
+    checksum.rotate_left(7) ^ ((intensity as u64) << 4 | status as u64)
+}
+
+fn timed(count: u64, run: impl FnOnce() -> u64) -> Timed {
+    let begin = Instant::now();
+    let checksum = black_box(run());
+    Timed { count, seconds: begin.elapsed().as_secs_f64(), checksum }
+}
+
+/// The clocked simulator, a cycle after the other.
+#[must_use]
+pub fn clocked(design: &Design, cycles: u64) -> Timed {
+    let mut pipeline = Pipeline::new(design.datapath());
+    let mut stimulus = Stimulus::new();
+    timed(cycles, || {
+        let mut checksum = 0;
+        for _ in 0..cycles {
+            let (address, x) = stimulus.next();
+            let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };
+            let outputs = pipeline.tick(&inputs);
+            if outputs.out_valid {
+                checksum = sum(checksum, outputs.intensity, outputs.status.bits());
+            }
+        }
+        checksum
+    })
+}
+
+/// Many cycles at a time. The results of the last latency are not yet shown, as in the others.
+#[must_use]
+pub fn streamed(design: &Design, cycles: u64) -> Timed {
+    let mut stream = Stream::new(design.datapath());
+    let mut stimulus = Stimulus::new();
+    let mut left = cycles.saturating_sub(design.datapath().rank_count() as u64);
+    timed(cycles, || {
+        let mut checksum = 0;
+        for _ in 0..cycles.div_ceil(CYCLES as u64) {
+            stream.run(|addresses, xs, valid| {
+                for (address, x) in addresses.iter_mut().zip(xs) {
+                    (*address, *x) = stimulus.next();
+                }
+                *valid = [true; CYCLES];
+            });
+            let (intensities, _) = stream.results();
+            let shown = left.min(CYCLES as u64) as usize;
+            for (result, &intensity) in intensities.iter().enumerate().take(shown) {
+                checksum = sum(checksum, intensity, stream.status(result).bits());
+            }
+            left -= shown as u64;
+        }
+        checksum
+    })
+}
+
+/// Every x of every exponent, or those from the cut on; the sum of all intensities, so that the order of the
+/// threads does not matter.
+#[must_use]
+pub fn sweep(design: &Design, threads: &rayon::ThreadPool, from_cut: bool) -> Timed {
+    let greatest = design.datapath().front_end().greatest;
+    let firsts = design.rows().iter().map(|row| if from_cut { row.cut } else { 0 });
+    let firsts: Vec<i64> = firsts.collect();
+    let count = firsts.iter().map(|first| (greatest - first + 1).max(0) as u64).sum();
+    let row = |(address, &first): (usize, &i64)| {
+        let mut intensities = vec![0; BLOCK];
+        let mut total = 0_u64;
+        for x in (first..=greatest).step_by(BLOCK) {
+            let len = (greatest - x + 1).min(BLOCK as i64) as usize;
+            let block = &mut intensities[..len];
+            design.datapath().evaluate_run(address as u32, x, block);
+            // Looked at, and cheaply: adding all up would take longer than computing them.
+            total = total.wrapping_add(block.iter().step_by(64).sum::<i64>() as u64);
+        }
+        total
+    };
+    timed(count, || {
+        threads.install(|| firsts.par_iter().enumerate().map(row).reduce(|| 0, u64::wrapping_add))
+    })
+}

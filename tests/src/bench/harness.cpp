@@ -1,0 +1,66 @@
+// The verilated pipeline under the stimulus of tests/src/bench/engines.rs: a random request in every cycle, each
+// result taken at once. Prints cycles, seconds and a checksum of all results.
+//
+//   harness CYCLES [FILE.vcd]
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+
+#include "Vblysk.h"
+#include "verilated.h"
+#if VM_TRACE
+#include "verilated_vcd_c.h"
+#endif
+
+int main(int argc, char** argv) {
+    const uint64_t cycles = std::strtoull(argv[1], nullptr, 10);
+    VerilatedContext context;
+#if VM_TRACE
+    context.traceEverOn(true);
+#endif
+    Vblysk top{&context};
+#if VM_TRACE
+    VerilatedVcdC waves;
+    top.trace(&waves, 99);
+    if (argc > 2) waves.open(argv[2]);
+#endif
+    top.rst_i = 1;
+    top.in_valid_i = 0;
+    top.out_ready_i = 1;
+    for (int edge = 0; edge < 6; ++edge) {
+        top.clk_i = edge & 1;
+        top.eval();
+    }
+    top.rst_i = 0;
+    top.in_valid_i = 1;
+    uint64_t state = SEED, checksum = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        top.address_i = state & 0xff;
+        top.x_i = state >> 16 & 0x7fffff;
+        if (top.out_valid_o) {
+            const uint64_t result = uint64_t(top.intensity_o) << 4 | top.status_o;
+            checksum = (checksum << 7 | checksum >> 57) ^ result;
+        }
+        top.clk_i = 1;
+        top.eval();
+#if VM_TRACE
+        if (argc > 2) waves.dump(10 * cycle + 5);
+#endif
+        top.clk_i = 0;
+        top.eval();
+#if VM_TRACE
+        if (argc > 2) waves.dump(10 * cycle + 10);
+#endif
+    }
+#if VM_TRACE
+    if (argc > 2) waves.close();
+#endif
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    std::printf("%llu %.9f %llu\n", (unsigned long long)cycles, taken.count(), (unsigned long long)checksum);
+    return 0;
+}
