@@ -48,6 +48,21 @@ macro_rules! values {
                         let at = |i: f64| real(phong(f64::from(n), i / steps));
                         at(low) + (t * real(steps) - real(low)) * (at(low + 1.0) - at(low))
                     }
+                    "minimax_2" => {
+                        let fitted = minimax::segments(f64::from(n), 2, minimax::Range::Balanced);
+                        let fitted = fitted.expect("a fit");
+                        let k = fitted.first.centred;
+                        let first = 1.0 - s * (real(k.k1) - s * (real(k.k2) - s * real(k.k3)));
+                        match (fitted.further.first(), fitted.ends.as_slice()) {
+                            (_, [end, ..]) if s <= real(*end) => first.max(0.0),
+                            (Some(second), [.., end]) if s <= real(*end) => {
+                                let ([c0, c1, c2, c3], v) =
+                                    (second.c.map(real), s - real(second.start));
+                                (c0 - v * (c1 - v * (c2 - v * c3))).max(0.0)
+                            }
+                            _ => 0.0,
+                        }
+                    }
                     method => {
                         let method: Method = method.parse().expect("a method");
                         let Fit { epicentre, curve } =
