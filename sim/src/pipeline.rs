@@ -14,7 +14,7 @@
 //! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
 //!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 
-use hw_model::datapath::{Datapath, Flight, Logic, Signals, Status};
+use hw_model::datapath::{Datapath, Flight, Logic, Signals, Slots, Status};
 
 /// What drives the pipeline during one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -60,7 +60,7 @@ pub struct Rank {
 pub struct Ranks<'a> {
     datapath: &'a Datapath,
     valid: u128,
-    slots: &'a [u8],
+    slots: &'a Slots,
     flights: &'a [Flight],
 }
 
@@ -71,7 +71,7 @@ impl<'a> Ranks<'a> {
     /// When there is no such rank.
     #[must_use]
     pub fn rank(&self, rank: usize) -> Rank {
-        let flight = self.flights.get(usize::from(self.slots[rank]));
+        let flight = self.flights.get(usize::from(self.slots.get(rank)));
         Rank {
             valid: self.valid >> rank & 1 == 1,
             loaded: flight.is_some(),
@@ -81,13 +81,13 @@ impl<'a> Ranks<'a> {
 
     /// All of them.
     pub fn iter(self) -> impl Iterator<Item = Rank> + use<'a> {
-        (0..self.slots.len()).map(move |rank| self.rank(rank))
+        (0..self.slots.ranks()).map(move |rank| self.rank(rank))
     }
 
     /// The last, which shows the result.
     #[must_use]
     pub fn last(&self) -> Rank {
-        self.rank(self.slots.len() - 1)
+        self.rank(self.slots.ranks() - 1)
     }
 
     /// The number of valid flags that are set.
@@ -113,7 +113,7 @@ pub struct Pipeline<'a> {
     loads_d: u128,
     request_d: (u32, i64),
     /// The request that each rank shows; [`NOTHING`] before the first.
-    slots: Vec<u8>,
+    slots: Slots,
     flights: Vec<Flight>,
     /// Requests that no rank shows. Ranks show as many as they are at most, so with one more there is always
     /// room for the next.
@@ -137,7 +137,7 @@ impl<'a> Pipeline<'a> {
             valid_d: 0,
             loads_d: 0,
             request_d: (0, 0),
-            slots: vec![NOTHING; ranks],
+            slots: Slots::new(ranks, NOTHING),
             flights: vec![datapath.flight(); ranks + 1],
             free: (0..=ranks as u8).collect(),
         }
@@ -185,8 +185,8 @@ impl<'a> Pipeline<'a> {
         let valid = self.loads_d | (self.valid_q & !advance);
         self.valid_d = if inputs.reset { 0 } else { valid };
         self.request_d = (inputs.address, inputs.x);
-        let last = self.slots.len() - 1;
-        let shown = self.flights.get(usize::from(self.slots[last]));
+        let last = self.slots.ranks() - 1;
+        let shown = self.flights.get(usize::from(self.slots.get(last)));
         Outputs {
             in_ready: advance & 1 == 1 && !inputs.reset,
             out_valid: self.valid_q >> last & 1 == 1,
@@ -208,23 +208,36 @@ impl<'a> Pipeline<'a> {
     /// Gives every loading rank the request of the rank before it, or the new one.
     #[inline]
     fn shift(&mut self) {
+        let last = self.slots.ranks() - 1;
+        if self.loads_d == self.all && self.slots.get(last) != NOTHING {
+            // What the last rank gives up is the new one's.
+            self.slots.turn();
+            self.enter();
+            return;
+        }
         let mut after = NOTHING;
-        for rank in (1..self.slots.len()).rev() {
-            let shown = self.slots[rank];
+        for rank in (1..=last).rev() {
+            let shown = self.slots.get(rank);
             if self.loads_d >> rank & 1 == 1 {
                 self.drop_unless(after, shown);
-                self.slots[rank] = self.slots[rank - 1];
+                self.slots.set(rank, self.slots.get(rank - 1));
             }
-            after = self.slots[rank];
+            after = self.slots.get(rank);
         }
         if self.loads_d & 1 == 1 {
-            self.drop_unless(after, self.slots[0]);
+            self.drop_unless(after, self.slots.get(0));
             if let Some(slot) = self.free.pop() {
-                self.slots[0] = slot;
-                let (address, x) = self.request_d;
-                self.datapath.enter(address, x, &mut self.flights[usize::from(slot)]);
+                self.slots.set(0, slot);
+                self.enter();
             }
         }
+    }
+
+    #[inline]
+    fn enter(&mut self) {
+        let (address, x) = self.request_d;
+        let slot = usize::from(self.slots.get(0));
+        self.datapath.enter(address, x, &mut self.flights[slot]);
     }
 
     /// A request that a rank gives up is free, unless the rank after it shows it. (Those before a rank show later

@@ -9,7 +9,7 @@ use hw_model::datapath::{Datapath, Flight, Logic, REQUESTS, Requests, Status};
 
 use crate::pipeline::{Outputs, Rank};
 
-/// Cycles that are computed together; more than there can be ranks.
+/// Cycles that are computed together; more than there can be ranks, since a division has 63 quotient bits at most.
 pub const CYCLES: usize = REQUESTS;
 
 /// A stream under way.

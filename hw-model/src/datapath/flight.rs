@@ -7,7 +7,7 @@
 use crate::rom::FieldName;
 use crate::rounding::{Lane, Rounding};
 
-use super::block::Lines;
+use super::block::{Lines, Segment};
 use super::clamp::clamp;
 use super::front_end::Region;
 use super::ranks::Datapath;
@@ -29,6 +29,8 @@ pub struct Flight {
     pub(super) region: Region,
     /// The second segment answers.
     pub(super) outer: bool,
+    /// c0 to c3 of the segment that answers.
+    pub(super) c: [i64; 4],
     /// As fetched, from the front end on, and in the last rank.
     pub(super) status: [Status; 3],
     pub(super) v: i64,
@@ -113,6 +115,56 @@ impl Datapath {
     }
 }
 
+/// Which request each rank shows: a ring, so that all ranks together go on by a turn of it.
+#[derive(Debug, Clone)]
+pub struct Slots {
+    ring: Vec<u8>,
+    head: usize,
+}
+
+impl Slots {
+    /// The same for every rank.
+    #[must_use]
+    pub fn new(ranks: usize, slot: u8) -> Self {
+        Self { ring: vec![slot; ranks], head: 0 }
+    }
+
+    /// The number of ranks.
+    #[must_use]
+    pub fn ranks(&self) -> usize {
+        self.ring.len()
+    }
+
+    #[inline(always)]
+    fn place(&self, rank: usize) -> usize {
+        let place = self.head + rank;
+        if place < self.ring.len() { place } else { place - self.ring.len() }
+    }
+
+    /// The request of a rank.
+    #[inline(always)]
+    #[must_use]
+    pub fn get(&self, rank: usize) -> u8 {
+        self.ring[self.place(rank)]
+    }
+
+    /// Gives a rank another request.
+    #[inline(always)]
+    pub fn set(&mut self, rank: usize, slot: u8) {
+        let place = self.place(rank);
+        self.ring[place] = slot;
+    }
+
+    /// Gives every rank the request of the rank before it, and the first that of the last.
+    #[inline(always)]
+    pub const fn turn(&mut self) {
+        self.head = match self.head {
+            0 => self.ring.len() - 1,
+            head => head - 1,
+        };
+    }
+}
+
 /// What lies between the ranks, with what is known of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Logic {
@@ -121,9 +173,9 @@ pub struct Logic {
 }
 
 impl Logic {
-    /// What the ranks of the bits in `loads` (from 1 up) take in: rank r of `flights[slots[r]]`.
+    /// What the ranks of the bits in `loads` (from 1 up) take in: rank r of the request that `slots` says.
     #[inline]
-    pub fn load(&self, datapath: &Datapath, loads: u128, slots: &[u8], flights: &mut [Flight]) {
+    pub fn load(&self, datapath: &Datapath, loads: u128, slots: &Slots, flights: &mut [Flight]) {
         let edge = Edge { datapath, lines: &self.lines, loads, slots, flights };
         match (self.plain, datapath.narrow) {
             (Some((Rounding::NearestUp, true)), _) => edge.load::<i64, Plain<true, true>>(),
@@ -139,7 +191,7 @@ struct Edge<'a> {
     datapath: &'a Datapath,
     lines: &'a Lines,
     loads: u128,
-    slots: &'a [u8],
+    slots: &'a Slots,
     flights: &'a mut [Flight],
 }
 
@@ -154,12 +206,7 @@ impl Edge<'_> {
             for (index, stage) in stages.iter().enumerate() {
                 if let Some(flight) = self.loaded(MIDDLE + index) {
                     let flight = &mut self.flights[flight];
-                    let row = self.datapath.row_at(flight.row);
-                    let names = match flight.outer {
-                        true => FieldName::OUTER_COEFFICIENTS,
-                        false => FieldName::COEFFICIENTS,
-                    };
-                    let [c0, c1, c2, c3] = names.map(|name| row.get(name));
+                    let [c0, c1, c2, c3] = flight.c;
                     let (multiplicand, addend) =
                         [(c3, c2), (flight.t[0], c1), (flight.t[1], c0)][index];
                     let [m, v, a] = [multiplicand, flight.v, addend].map(L::from_bits);
@@ -170,7 +217,7 @@ impl Edge<'_> {
         if lines.divider.is_some() {
             self.tail::<L>(&lines);
         }
-        if let Some(flight) = self.loaded(self.slots.len() - 1) {
+        if let Some(flight) = self.loaded(self.slots.ranks() - 1) {
             let flight = &mut self.flights[flight];
             flight.finish::<L>(&lines);
         }
@@ -179,7 +226,7 @@ impl Edge<'_> {
     /// The request that a rank takes in, where it does.
     #[inline(always)]
     fn loaded(&self, rank: usize) -> Option<usize> {
-        (self.loads >> rank & 1 == 1).then(|| self.slots[rank].into())
+        (self.loads >> rank & 1 == 1).then(|| self.slots.get(rank).into())
     }
 
     #[inline(always)]
@@ -199,10 +246,11 @@ impl Edge<'_> {
             .with(Status::FACING_AWAY, given < L::ZERO);
         let hand_over = L::from_bits(row.get(FieldName::HandOver));
         flight.outer = front_end.is_outer(x, region, hand_over);
-        let (start, shift) = match flight.outer {
-            true => (hand_over, row.shift_outer()),
-            false => (L::from_bits(front_end.one), row.shift()),
+        let Segment { start, shift, c } = match flight.outer {
+            true => Segment::outer(row),
+            false => Segment::first(row, L::from_bits(front_end.one)),
         };
+        flight.c = c.map(L::to_bits);
         flight.v = front_end.variable(x, region, start, shift).to_bits();
         flight.tail_x = front_end.tail_x(x, region).to_bits();
     }

@@ -19,7 +19,7 @@ use super::signals::Status;
 use super::tail::Division;
 
 /// Requests side by side.
-pub const REQUESTS: usize = 256;
+pub const REQUESTS: usize = 128;
 
 type Values = [i64; REQUESTS];
 
@@ -31,6 +31,8 @@ pub struct Requests {
     /// x, bits in the input format.
     pub xs: Values,
     row: Coefficients,
+    /// The address that all coefficients were collected of, where it is one.
+    collected: Option<u32>,
     /// 1 where the address has a word.
     known: Values,
     clamped_xs: Values,
@@ -39,6 +41,8 @@ pub struct Requests {
     status: [Values; 2],
     v: Values,
     t: [Values; 3],
+    /// 1 where the second segment answers.
+    outer: Values,
     tail_x: Values,
     divisions: Vec<Divisions>,
     intensities: Values,
@@ -48,12 +52,12 @@ pub struct Requests {
 #[derive(Debug, Clone)]
 struct Coefficients {
     c: [Values; 4],
-    cut: Values,
-    /// Where v counts from: 1, or where the first segment hands over to the second.
-    start: Values,
     shift: Values,
-    /// 1 where the second segment answers.
-    outer: Values,
+    cut: Values,
+    /// Of the second segment, where there is one.
+    outer_c: [Values; 4],
+    outer_shift: Values,
+    hand_over: Values,
     tail: [Values; 2],
 }
 
@@ -74,22 +78,25 @@ impl Datapath {
         let division = Divisions { divisors: ZEROS, remainders: ZEROS, digits: ZEROS };
         let row = Coefficients {
             c: [ZEROS; 4],
-            cut: ZEROS,
-            start: [self.front_end.one; REQUESTS],
             shift: ZEROS,
-            outer: ZEROS,
+            cut: ZEROS,
+            outer_c: [ZEROS; 4],
+            outer_shift: ZEROS,
+            hand_over: ZEROS,
             tail: [ZEROS; 2],
         };
         Box::new(Requests {
             addresses: [0; REQUESTS],
             xs: ZEROS,
             row,
+            collected: None,
             known: ZEROS,
             clamped_xs: ZEROS,
             regions: ZEROS,
             status: [ZEROS; 2],
             v: ZEROS,
             t: [ZEROS; 3],
+            outer: ZEROS,
             tail_x: ZEROS,
             divisions: vec![division; self.divider_ranks()],
             intensities: ZEROS,
@@ -124,7 +131,11 @@ impl Requests {
             row: if known { self.addresses[request] } else { 0 },
             x: self.xs[request],
             clamped_x: self.clamped_xs[request],
-            outer: self.row.outer[request] != 0,
+            outer: self.outer[request] != 0,
+            c: [0, 1, 2, 3].map(|power| match self.outer[request] {
+                0 => self.row.c[power][request],
+                _ => self.row.outer_c[power][request],
+            }),
             region: match self.regions[request] {
                 1 => Region::Polynomial,
                 2 => Region::Tail,
@@ -148,29 +159,41 @@ impl Logic {
     /// Evaluates every request.
     pub fn evaluate(&self, datapath: &Datapath, requests: &mut Requests) {
         requests.collect(datapath);
-        match (self.plain, datapath.narrow) {
-            (Some((Rounding::NearestUp, true)), _) => centred(&self.lines, requests),
-            (Some((Rounding::NearestUp, false)), _) => power(&self.lines, requests),
-            (_, true) => requests.evaluate::<i64, Anything>(&self.lines),
-            (_, false) => requests.evaluate::<i128, Anything>(&self.lines),
+        match (self.plain, datapath.narrow, datapath.has_two_segments()) {
+            (Some((Rounding::NearestUp, true)), _, false) => centred(&self.lines, requests),
+            (Some((Rounding::NearestUp, true)), _, true) => two_segments(&self.lines, requests),
+            (Some((Rounding::NearestUp, false)), _, false) => power(&self.lines, requests),
+            (_, true, _) => requests.evaluate::<i64, Anything, true>(&self.lines),
+            (_, false, _) => requests.evaluate::<i128, Anything, true>(&self.lines),
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn centred(lines: &Lines, requests: &mut Requests) {
-    requests.evaluate::<i64, Plain<true, true>>(lines);
+    requests.evaluate::<i64, Plain<true, true>, false>(lines);
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn two_segments(lines: &Lines, requests: &mut Requests) {
+    requests.evaluate::<i64, Plain<true, true>, true>(lines);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn power(lines: &Lines, requests: &mut Requests) {
-    requests.evaluate::<i64, Plain<true, false>>(lines);
+    requests.evaluate::<i64, Plain<true, false>, false>(lines);
 }
 
 impl Requests {
+    /// Collects coefficients, unless they are those that stand there already, as in a sweep.
     fn collect(&mut self, datapath: &Datapath) {
-        let Coefficients { c, cut, shift, tail, .. } = &mut self.row;
-        let tail_is_there = datapath.divider.is_some();
+        let first = self.addresses[0];
+        let same = self.addresses.iter().fold(0, |differ, address| differ | (address ^ first)) == 0;
+        if same && self.collected == Some(first) {
+            return;
+        }
+        self.collected = same.then_some(first);
+        let Coefficients { c, shift, cut, outer_c, outer_shift, hand_over, tail } = &mut self.row;
         for (request, &address) in self.addresses.iter().enumerate() {
             let known = datapath.rom.row(address);
             self.known[request] = i64::from(known.is_some());
@@ -178,87 +201,73 @@ impl Requests {
             for (values, name) in c.iter_mut().zip(FieldName::COEFFICIENTS) {
                 values[request] = row.get(name);
             }
-            cut[request] = row.get(FieldName::Cut);
             shift[request] = row.get(FieldName::Shift);
-            if tail_is_there {
+            cut[request] = row.get(FieldName::Cut);
+            if datapath.has_two_segments() {
+                for (values, name) in outer_c.iter_mut().zip(FieldName::OUTER_COEFFICIENTS) {
+                    values[request] = row.get(name);
+                }
+                outer_shift[request] = row.get(FieldName::ShiftOuter);
+                hand_over[request] = row.get(FieldName::HandOver);
+            }
+            if datapath.divider.is_some() {
                 tail[0][request] = row.get(FieldName::TailA);
                 tail[1][request] = row.get(FieldName::TailB);
             }
         }
-        if datapath.has_two_segments() {
-            self.collect_second_segment(datapath);
-        }
     }
 
-    /// The second segment's coefficients instead, where it answers.
-    fn collect_second_segment(&mut self, datapath: &Datapath) {
-        let front_end = &datapath.front_end;
-        let Coefficients { c, start, shift, outer, .. } = &mut self.row;
-        for (request, (&address, &x)) in self.addresses.iter().zip(&self.xs).enumerate() {
-            let known = self.known[request] != 0;
-            let row = datapath.row_at(if known { address } else { 0 });
-            let region = front_end.region(x, row.get(FieldName::Cut));
-            let hand_over = row.get(FieldName::HandOver);
-            let second = known && front_end.is_outer(front_end.clamp_input(x), region, hand_over);
-            let names =
-                if second { FieldName::OUTER_COEFFICIENTS } else { FieldName::COEFFICIENTS };
-            for (values, name) in c.iter_mut().zip(names) {
-                values[request] = row.get(name);
-            }
-            start[request] = if second { hand_over } else { front_end.one };
-            shift[request] = row.get(if second { FieldName::ShiftOuter } else { FieldName::Shift });
-            outer[request] = second.into();
-        }
-    }
-
+    /// `TWO`: there may be a second segment.
     #[inline(always)]
-    fn evaluate<L: Lane, K: Known>(&mut self, lines: &Lines) {
-        self.front_end::<L, K>(lines);
-        self.polynomial::<L, K>(lines);
+    fn evaluate<L: Lane, K: Known, const TWO: bool>(&mut self, lines: &Lines) {
+        self.polynomial::<L, K, TWO>(lines);
         self.tail::<L, K>(lines);
-        self.results::<L, K>(lines);
     }
 
+    /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
-    fn front_end<L: Lane, K: Known>(&mut self, lines: &Lines) {
-        let front_end = K::lines(*lines).front_end;
+    fn polynomial<L: Lane, K: Known, const TWO: bool>(&mut self, lines: &Lines) {
+        let Lines { front_end, stages, output_one, .. } = K::lines(*lines);
+        let lane = |values: &Values, request: usize| L::from_bits(values[request]);
         for request in 0..REQUESTS {
-            let given = L::from_bits(self.xs[request]);
+            let row = &self.row;
+            let given = lane(&self.xs, request);
             let x = front_end.clamp_input(given);
-            let region = front_end.region(given, L::from_bits(self.row.cut[request]));
             let known = self.known[request] != 0;
+            let region = front_end.region(given, lane(&row.cut, request));
             let region = if known { region } else { Region::Zero };
+            let hand_over = lane(&row.hand_over, request);
+            let outer = TWO && front_end.is_outer(x, region, hand_over);
+            let start = if outer { hand_over } else { L::from_bits(front_end.one) };
+            let shift = if outer { row.outer_shift[request] } else { row.shift[request] } as u32;
+            let c = |power: usize| {
+                let first = lane(&row.c[power], request);
+                if outer { lane(&row.outer_c[power], request) } else { first }
+            };
+            let v = front_end.variable(x, region, start, shift);
+            let t = stages.map_or([L::ZERO; 3], |[stage1, stage2, stage3]| {
+                let t1 = stage1.apply(c(3), v, c(2));
+                let t2 = stage2.apply(t1, v, c(1));
+                [t1, t2, stage3.apply(t2, v, c(0))]
+            });
+            let answers = region == Region::Polynomial;
+            let answered = clamp(t[2], L::from_bits(output_one));
             let status = Status::default()
                 .with(Status::NO_WORD, !known)
                 .with(Status::ABOVE_ONE, given > L::from_bits(front_end.one))
                 .with(Status::FACING_AWAY, given < L::ZERO);
-            let v = {
-                let start = L::from_bits(self.row.start[request]);
-                front_end.variable(x, region, start, self.row.shift[request] as u32)
-            };
+            let result = status.with(Status::CLAMPED, answers && answered != t[2]);
             self.clamped_xs[request] = x.to_bits();
             self.regions[request] = region as i64;
+            self.outer[request] = outer.into();
             self.status[0][request] = status.bits().into();
+            self.status[1][request] = result.bits().into();
             self.v[request] = v.to_bits();
             self.tail_x[request] = front_end.tail_x(x, region).to_bits();
-        }
-    }
-
-    #[inline(always)]
-    fn polynomial<L: Lane, K: Known>(&mut self, lines: &Lines) {
-        let Lines { stages: Some([stage1, stage2, stage3]), .. } = K::lines(*lines) else {
-            return;
-        };
-        let ([c0, c1, c2, c3], [t1, t2, t3]) = (&self.row.c, &mut self.t);
-        for request in 0..REQUESTS {
-            let lane = |values: &Values| L::from_bits(values[request]);
-            let v = lane(&self.v);
-            let first = stage1.apply(lane(c3), v, lane(c2));
-            let second = stage2.apply(first, v, lane(c1));
-            let third = stage3.apply(second, v, lane(c0));
-            t1[request] = first.to_bits();
-            t2[request] = second.to_bits();
-            t3[request] = third.to_bits();
+            self.t[0][request] = t[0].to_bits();
+            self.t[1][request] = t[1].to_bits();
+            self.t[2][request] = t[2].to_bits();
+            self.intensities[request] = if answers { answered.to_bits() } else { 0 };
         }
     }
 
@@ -282,28 +291,13 @@ impl Requests {
                 }
             }
         }
-    }
-
-    #[inline(always)]
-    fn results<L: Lane, K: Known>(&mut self, lines: &Lines) {
-        let Lines { divider, output_one, .. } = K::lines(*lines);
-        let one = L::from_bits(output_one);
-        let polynomial = Region::Polynomial as i64;
+        let Some(last) = self.divisions.last() else { return };
+        let one = L::from_bits(lines.output_one);
         for request in 0..REQUESTS {
-            let t3 = self.t[2][request];
-            let answered = clamp(L::from_bits(t3), one).to_bits();
-            let answers = self.regions[request] == polynomial;
-            let clamped = Status::default().with(Status::CLAMPED, answers && answered != t3);
-            self.status[1][request] = self.status[0][request] | i64::from(clamped.bits());
-            self.intensities[request] = if answers { answered } else { 0 };
-        }
-        if let (Some(divider), Some(last)) = (divider, self.divisions.last()) {
-            for request in 0..REQUESTS {
-                let quotient = divider.finish(last.get::<L>(request), one).to_bits();
-                let answers = self.regions[request] == Region::Tail as i64;
-                let other = self.intensities[request];
-                self.intensities[request] = if answers { quotient } else { other };
-            }
+            let quotient = divider.finish(last.get::<L>(request), one).to_bits();
+            let answers = self.regions[request] == Region::Tail as i64;
+            let other = self.intensities[request];
+            self.intensities[request] = if answers { quotient } else { other };
         }
     }
 }

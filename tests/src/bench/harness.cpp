@@ -1,17 +1,24 @@
 // The verilated pipeline under the stimulus of tests/src/bench/engines.rs: a random request in every cycle, each
-// result taken at once. Prints cycles, seconds and a checksum of all results.
+// result taken at once. Prints cycles, seconds of the processor, and a checksum of all results.
 //
 //   harness CYCLES [FILE.vcd]
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "Vblysk.h"
 #include "verilated.h"
 #if VM_TRACE
 #include "verilated_vcd_c.h"
 #endif
+
+// Of the processor, so that others on the machine take nothing away.
+static double seconds() {
+    timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return time.tv_sec + 1e-9 * time.tv_nsec;
+}
 
 int main(int argc, char** argv) {
     const uint64_t cycles = std::strtoull(argv[1], nullptr, 10);
@@ -29,19 +36,19 @@ int main(int argc, char** argv) {
     top.in_valid_i = 0;
     top.out_ready_i = 1;
     for (int edge = 0; edge < 6; ++edge) {
-        top.clk_i = edge & 1;
+        top.clk_i = ~edge & 1;
         top.eval();
     }
     top.rst_i = 0;
     top.in_valid_i = 1;
     uint64_t state = SEED, checksum = 0;
-    const auto begin = std::chrono::steady_clock::now();
+    const double begin = seconds();
     for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
         top.address_i = state & 0xff;
-        top.x_i = state >> 16 & 0x7fffff;
+        top.x_i = 0x7fffff - ((state >> 16 & 0x7fffff) >> (state >> 40 & 7));
         if (top.out_valid_o) {
             const uint64_t result = uint64_t(top.intensity_o) << 4 | top.status_o;
             checksum = (checksum << 7 | checksum >> 57) ^ result;
@@ -60,7 +67,7 @@ int main(int argc, char** argv) {
 #if VM_TRACE
     if (argc > 2) waves.close();
 #endif
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    std::printf("%llu %.9f %llu\n", (unsigned long long)cycles, taken.count(), (unsigned long long)checksum);
+    const double taken = seconds() - begin;
+    std::printf("%llu %.9f %llu\n", (unsigned long long)cycles, taken, (unsigned long long)checksum);
     return 0;
 }
