@@ -43,7 +43,7 @@ use crate::certify::search::{claim_every_exponent, claim_exponent};
 pub(super) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// hermite, three_point, tangent, quadratic, rational, composite, schlick, or all
+    /// hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick, or all
     /// [default: hermite with --all-real-n, else all].
     #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"])]
     method: Option<Methods>,
