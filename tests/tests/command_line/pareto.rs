@@ -8,7 +8,7 @@ use blysk_tests::bench;
 use blysk_tests::cli::{csv_rows, number};
 use hw_model::config::Config;
 use hw_model::design::Design;
-use hw_model::fit::{Curve, Fit, Levels, Method, fit};
+use hw_model::fit::{Curve, Fit, Levels, Method, fit, minimax};
 use hw_model::highlight::{ExactPower, phong};
 use hw_model::presets;
 use serde_json::Value;
