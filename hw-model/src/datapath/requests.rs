@@ -133,10 +133,6 @@ impl Requests {
             x: self.xs[request],
             clamped_x: self.clamped_xs[request],
             outer: self.outer[request] != 0,
-            c: [0, 1, 2, 3].map(|power| match self.outer[request] {
-                0 => self.row.c[power][request],
-                _ => self.row.outer_c[power][request],
-            }),
             region: match self.regions[request] {
                 1 => Region::Polynomial,
                 2 => Region::Tail,
