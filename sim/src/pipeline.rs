@@ -100,7 +100,7 @@ impl<'a> Ranks<'a> {
 /// The clocked pipeline of one configuration.
 ///
 /// A rank holds the number of the request it shows (see [`Flight`]); a flag of every rank is a bit of one word.
-/// So a cycle moves a few bytes, computes what the loading ranks take in, and allocates nothing.
+/// So a cycle moves a few bytes, computes the request that enters, and allocates nothing.
 #[derive(Debug, Clone)]
 pub struct Pipeline<'a> {
     datapath: &'a Datapath,
@@ -201,7 +201,6 @@ impl<'a> Pipeline<'a> {
         self.valid_q = self.valid_d;
         if self.loads_d != 0 {
             self.shift();
-            self.logic.load(self.datapath, self.loads_d, &self.slots, &mut self.flights);
         }
     }
 
@@ -237,7 +236,7 @@ impl<'a> Pipeline<'a> {
     fn enter(&mut self) {
         let (address, x) = self.request_d;
         let slot = usize::from(self.slots.get(0));
-        self.datapath.enter(address, x, &mut self.flights[slot]);
+        self.logic.enter(self.datapath, address, x, &mut self.flights[slot]);
     }
 
     /// A request that a rank gives up is free, unless the rank after it shows it. (Those before a rank show later

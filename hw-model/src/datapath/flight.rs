@@ -1,10 +1,10 @@
 //! A request in flight: every value that was computed of it so far, each in a place of its own.
 //!
 //! Ranks of registers hold the same values again and again, carried along. A clocked simulator that keeps
-//! requests instead of ranks moves nothing but their numbers: a rank shows a request as far as the rank has
-//! computed it, also after the request has gone on (a bubble does not change registers).
+//! requests instead of ranks moves nothing but their numbers: a rank shows of a request what has been computed
+//! up to it, also after the request has gone on (a bubble does not change registers).
 
-use crate::rom::FieldName;
+use crate::rom::{FieldName, Row};
 use crate::rounding::{Lane, Rounding};
 
 use super::block::{Lines, Segment};
@@ -29,8 +29,6 @@ pub struct Flight {
     pub(super) region: Region,
     /// The second segment answers.
     pub(super) outer: bool,
-    /// c0 to c3 of the segment that answers.
-    pub(super) c: [i64; 4],
     /// As fetched, from the front end on, and in the last rank.
     pub(super) status: [Status; 3],
     pub(super) v: i64,
@@ -67,16 +65,7 @@ impl Datapath {
         Flight { divisions: vec![Division::default(); self.divider_ranks()], ..Flight::default() }
     }
 
-    /// What rank 0 takes in, into a request that nobody shows any more.
-    #[inline]
-    pub fn enter(&self, address: u32, x: i64, flight: &mut Flight) {
-        let known = self.rom.row(address).is_some();
-        (flight.address, flight.x) = (address, x);
-        flight.row = if known { address } else { 0 };
-        flight.status[0] = Status::default().with(Status::NO_WORD, !known);
-    }
-
-    /// The logic in front of the ranks from 1 up.
+    /// The logic between the ranks.
     #[must_use]
     pub fn logic(&self) -> Logic {
         let lines = Lines::of(self);
@@ -173,125 +162,71 @@ pub struct Logic {
 }
 
 impl Logic {
-    /// What the ranks of the bits in `loads` (from 1 up) take in: rank r of the request that `slots` says.
+    /// What all ranks will take in of a request, in the place of one that nobody shows any more.
+    ///
+    /// A request's values follow from its address and x alone, whenever it goes on from rank to rank. So they are
+    /// computed when it enters, and [`Datapath::shown`] says which of them a rank has.
     #[inline]
-    pub fn load(&self, datapath: &Datapath, loads: u128, slots: &Slots, flights: &mut [Flight]) {
-        let edge = Edge { datapath, lines: &self.lines, loads, slots, flights };
+    pub fn enter(&self, datapath: &Datapath, address: u32, x: i64, flight: &mut Flight) {
+        let known = datapath.rom.row(address).is_some();
+        (flight.address, flight.x) = (address, x);
+        flight.row = if known { address } else { 0 };
+        flight.status[0] = Status::default().with(Status::NO_WORD, !known);
+        let row = datapath.row_at(flight.row);
         match (self.plain, datapath.narrow) {
-            (Some((Rounding::NearestUp, true)), _) => edge.load::<i64, Plain<true, true>>(),
-            (Some((Rounding::NearestUp, false)), _) => edge.load::<i64, Plain<true, false>>(),
-            (_, true) => edge.load::<i64, Anything>(),
-            (_, false) => edge.load::<i128, Anything>(),
-        }
-    }
-}
-
-/// A clock edge.
-struct Edge<'a> {
-    datapath: &'a Datapath,
-    lines: &'a Lines,
-    loads: u128,
-    slots: &'a Slots,
-    flights: &'a mut [Flight],
-}
-
-impl Edge<'_> {
-    #[inline(always)]
-    fn load<L: Lane, K: Known>(mut self) {
-        let lines = K::lines(*self.lines);
-        if let Some(flight) = self.loaded(1) {
-            self.front_end::<L>(&lines, flight);
-        }
-        if let Some(stages) = &lines.stages {
-            for (index, stage) in stages.iter().enumerate() {
-                if let Some(flight) = self.loaded(MIDDLE + index) {
-                    let flight = &mut self.flights[flight];
-                    let [c0, c1, c2, c3] = flight.c;
-                    let (multiplicand, addend) =
-                        [(c3, c2), (flight.t[0], c1), (flight.t[1], c0)][index];
-                    let [m, v, a] = [multiplicand, flight.v, addend].map(L::from_bits);
-                    flight.t[index] = stage.apply(m, v, a).to_bits();
-                }
+            (Some((Rounding::NearestUp, true)), _) => {
+                self.evaluate_one::<i64, Plain<true, true>>(row, known, flight);
             }
-        }
-        if lines.divider.is_some() {
-            self.tail::<L>(&lines);
-        }
-        if let Some(flight) = self.loaded(self.slots.ranks() - 1) {
-            let flight = &mut self.flights[flight];
-            flight.finish::<L>(&lines);
+            (Some((Rounding::NearestUp, false)), _) => {
+                self.evaluate_one::<i64, Plain<true, false>>(row, known, flight);
+            }
+            (_, true) => self.evaluate_one::<i64, Anything>(row, known, flight),
+            (_, false) => self.evaluate_one::<i128, Anything>(row, known, flight),
         }
     }
 
-    /// The request that a rank takes in, where it does.
     #[inline(always)]
-    fn loaded(&self, rank: usize) -> Option<usize> {
-        (self.loads >> rank & 1 == 1).then(|| self.slots.get(rank).into())
-    }
-
-    #[inline(always)]
-    fn front_end<L: Lane>(&mut self, lines: &Lines, flight: usize) {
-        let flight = &mut self.flights[flight];
-        let row = self.datapath.row_at(flight.row);
-        let front_end = &lines.front_end;
-        let given = L::from_bits(flight.x);
+    fn evaluate_one<L: Lane, K: Known>(&self, row: &Row, known: bool, flight: &mut Flight) {
+        let Lines { front_end, stages, divider, output_one } = K::lines(self.lines);
+        let (given, input_one) = (L::from_bits(flight.x), L::from_bits(front_end.one));
+        let one = L::from_bits(output_one);
         let x = front_end.clamp_input(given);
-        let no_word = flight.status[0].contains(Status::NO_WORD);
         let region = front_end.region(given, L::from_bits(row.get(FieldName::Cut)));
-        let region = if no_word { Region::Zero } else { region };
-        flight.clamped_x = x.to_bits();
-        flight.region = region;
-        flight.status[1] = flight.status[0]
-            .with(Status::ABOVE_ONE, given > L::from_bits(front_end.one))
+        let region = if known { region } else { Region::Zero };
+        let status = flight.status[0]
+            .with(Status::ABOVE_ONE, given > input_one)
             .with(Status::FACING_AWAY, given < L::ZERO);
         let hand_over = L::from_bits(row.get(FieldName::HandOver));
-        flight.outer = front_end.is_outer(x, region, hand_over);
-        let Segment { start, shift, c } = match flight.outer {
-            true => Segment::outer(row),
-            false => Segment::first(row, L::from_bits(front_end.one)),
-        };
-        flight.c = c.map(L::to_bits);
-        flight.v = front_end.variable(x, region, start, shift).to_bits();
-        flight.tail_x = front_end.tail_x(x, region).to_bits();
-    }
-
-    #[inline(always)]
-    fn tail<L: Lane>(&mut self, lines: &Lines) {
-        let Some(divider) = &lines.divider else { return };
-        for index in 0..self.datapath.divider_ranks() {
-            let Some(flight) = self.loaded(MIDDLE + index) else { continue };
-            let flight = &mut self.flights[flight];
-            let division = match index.checked_sub(1) {
-                None => {
-                    let row = self.datapath.row_at(flight.row);
-                    let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
-                    let [x, a, b] = [flight.tail_x, a, b].map(L::from_bits);
-                    divider.begin(x, a, b)
-                }
-                Some(before) => {
-                    let division = flight.divisions[before].widened::<L>();
-                    divider.digit_stage(before as u32, division)
-                }
-            };
-            flight.divisions[index] = division.narrowed();
+        let outer = front_end.is_outer(x, region, hand_over);
+        let segment = if outer { Segment::outer(row) } else { Segment::first(row, input_one) };
+        let Segment { start, shift, c: [c0, c1, c2, c3] } = segment;
+        let v = front_end.variable(x, region, start, shift);
+        (flight.clamped_x, flight.region, flight.outer) = (x.to_bits(), region, outer);
+        (flight.v, flight.tail_x) = (v.to_bits(), front_end.tail_x(x, region).to_bits());
+        (flight.status[1], flight.status[2], flight.intensity) = (status, status, 0);
+        if let Some([stage1, stage2, stage3]) = stages {
+            let t1 = stage1.apply(c3, v, c2);
+            let t2 = stage2.apply(t1, v, c1);
+            let t3 = stage3.apply(t2, v, c0);
+            flight.t = [t1, t2, t3].map(L::to_bits);
+            let answered = clamp(t3, one);
+            let answers = region == Region::Polynomial;
+            flight.status[2] = status.with(Status::CLAMPED, answers && answered != t3);
+            flight.intensity = if answers { answered.to_bits() } else { 0 };
         }
-    }
-}
-
-impl Flight {
-    #[inline(always)]
-    fn finish<L: Lane>(&mut self, lines: &Lines) {
-        let one = L::from_bits(lines.output_one);
-        let [_, _, t3] = self.t;
-        let answered = clamp(L::from_bits(t3), one).to_bits();
-        let polynomial = self.region == Region::Polynomial;
-        self.status[2] = self.status[1].with(Status::CLAMPED, polynomial && answered != t3);
-        self.intensity = match (self.region, &lines.divider, self.divisions.last()) {
-            (Region::Polynomial, _, _) => answered,
-            (Region::Tail, Some(divider), Some(division)) => {
-                divider.finish(division.widened::<L>(), one).to_bits()
+        if let Some(divider) = divider {
+            let [a, b] =
+                [FieldName::TailA, FieldName::TailB].map(|name| L::from_bits(row.get(name)));
+            let mut division = divider.begin(front_end.tail_x(x, region), a, b);
+            for (stage, behind) in (0_u32..).zip(&mut flight.divisions) {
+                if let Some(stage) = stage.checked_sub(1) {
+                    division = divider.digit_stage(stage, division);
+                }
+                *behind = division.narrowed();
             }
-            _ => 0,
-        };
+            if region == Region::Tail {
+                flight.intensity = divider.finish(division, one).to_bits();
+            }
+        }
     }
 }

@@ -16,6 +16,7 @@ use super::front_end::Region;
 use super::ranks::Datapath;
 use super::run::{Anything, Known, Plain};
 use super::signals::Status;
+use super::stage::MultiplyAdd;
 use super::tail::Division;
 
 /// Requests side by side.
@@ -132,10 +133,6 @@ impl Requests {
             x: self.xs[request],
             clamped_x: self.clamped_xs[request],
             outer: self.outer[request] != 0,
-            c: [0, 1, 2, 3].map(|power| match self.outer[request] {
-                0 => self.row.c[power][request],
-                _ => self.row.outer_c[power][request],
-            }),
             region: match self.regions[request] {
                 1 => Region::Polynomial,
                 2 => Region::Tail,
@@ -227,36 +224,42 @@ impl Requests {
     /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
     fn polynomial<L: Lane, K: Known, const TWO: bool>(&mut self, lines: &Lines) {
-        let Lines { front_end, stages, output_one, .. } = K::lines(*lines);
-        let lane = |values: &Values, request: usize| L::from_bits(values[request]);
+        // Where there is no polynomial, all its operands are 0, and what is computed of them too.
+        let stages = lines.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
+        let lines = K::lines(Lines { stages: Some(stages), ..*lines });
+        let Lines { front_end, stages: Some([stage1, stage2, stage3]), output_one, .. } = lines
+        else {
+            return;
+        };
+        let (input_one, one) = (L::from_bits(front_end.one), L::from_bits(output_one));
+        let row = &self.row;
+        let ([c0, c1, c2, c3], [d0, d1, d2, d3]) = (&row.c, &row.outer_c);
         for request in 0..REQUESTS {
-            let row = &self.row;
-            let given = lane(&self.xs, request);
+            let given = L::from_bits(self.xs[request]);
             let x = front_end.clamp_input(given);
             let known = self.known[request] != 0;
-            let region = front_end.region(given, lane(&row.cut, request));
+            let region = front_end.region(given, L::from_bits(row.cut[request]));
             let region = if known { region } else { Region::Zero };
-            let hand_over = lane(&row.hand_over, request);
+            let hand_over = L::from_bits(row.hand_over[request]);
             let outer = TWO && front_end.is_outer(x, region, hand_over);
-            let start = if outer { hand_over } else { L::from_bits(front_end.one) };
-            let shift = if outer { row.outer_shift[request] } else { row.shift[request] } as u32;
-            let c = |power: usize| {
-                let first = lane(&row.c[power], request);
-                if outer { lane(&row.outer_c[power], request) } else { first }
-            };
+            let start = if outer { hand_over } else { input_one };
+            let (inner, other) = (row.shift[request], row.outer_shift[request]);
+            let shift = if outer { other } else { inner } as u32;
             let v = front_end.variable(x, region, start, shift);
-            let t = stages.map_or([L::ZERO; 3], |[stage1, stage2, stage3]| {
-                let t1 = stage1.apply(c(3), v, c(2));
-                let t2 = stage2.apply(t1, v, c(1));
-                [t1, t2, stage3.apply(t2, v, c(0))]
-            });
+            let either = |first: &Values, second: &Values| {
+                let (first, second) = (first[request], second[request]);
+                L::from_bits(if outer { second } else { first })
+            };
+            let t1 = stage1.apply(either(c3, d3), v, either(c2, d2));
+            let t2 = stage2.apply(t1, v, either(c1, d1));
+            let t3 = stage3.apply(t2, v, either(c0, d0));
             let answers = region == Region::Polynomial;
-            let answered = clamp(t[2], L::from_bits(output_one));
+            let answered = clamp(t3, one);
             let status = Status::default()
                 .with(Status::NO_WORD, !known)
-                .with(Status::ABOVE_ONE, given > L::from_bits(front_end.one))
+                .with(Status::ABOVE_ONE, given > input_one)
                 .with(Status::FACING_AWAY, given < L::ZERO);
-            let result = status.with(Status::CLAMPED, answers && answered != t[2]);
+            let result = status.with(Status::CLAMPED, answers && answered != t3);
             self.clamped_xs[request] = x.to_bits();
             self.regions[request] = region as i64;
             self.outer[request] = outer.into();
@@ -264,9 +267,9 @@ impl Requests {
             self.status[1][request] = result.bits().into();
             self.v[request] = v.to_bits();
             self.tail_x[request] = front_end.tail_x(x, region).to_bits();
-            self.t[0][request] = t[0].to_bits();
-            self.t[1][request] = t[1].to_bits();
-            self.t[2][request] = t[2].to_bits();
+            self.t[0][request] = t1.to_bits();
+            self.t[1][request] = t2.to_bits();
+            self.t[2][request] = t3.to_bits();
             self.intensities[request] = if answers { answered.to_bits() } else { 0 };
         }
     }

@@ -42,6 +42,16 @@ pub struct Fractions {
 }
 
 impl MultiplyAdd {
+    /// A line that is not there: of zeros it makes 0.
+    pub(super) const NOTHING: Self = Self {
+        subtract: false,
+        product_up: 0,
+        addend_up: 0,
+        result_up: 0,
+        drop: 0,
+        rounding: Rounding::Floor,
+    };
+
     /// The line for these fraction bits; `subtract` takes the product away from the addend.
     #[must_use]
     pub const fn aligned(fractions: Fractions, subtract: bool, rounding: Rounding) -> Self {

@@ -8,27 +8,46 @@ use rayon::prelude::*;
 use sim::pipeline::{Inputs, Pipeline};
 use sim::stream::{CYCLES, Stream};
 
-use super::{SEED, Timed};
+use super::{ADDRESS, Pattern, SEED, Timed};
 
 /// x that are evaluated together in a sweep.
 const BLOCK: usize = 2048;
 
-/// A random request: the same numbers as in `harness.cpp`.
-pub(super) struct Stimulus(u64);
+/// Requests: the same as in `harness.cpp`.
+pub(super) trait Stimulus {
+    fn new() -> Self;
+    fn next(&mut self) -> (u32, i64);
+}
 
-impl Stimulus {
-    pub(super) const fn new() -> Self {
+pub(super) struct Random(u64);
+
+impl Stimulus for Random {
+    fn new() -> Self {
         Self(SEED)
     }
 
     #[inline(always)]
-    pub(super) const fn next(&mut self) -> (u32, i64) {
+    fn next(&mut self) -> (u32, i64) {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
-        // s = 1 − x of all magnitudes: else nearly all x would lie below the cut of their exponent.
         let s = (self.0 >> 16 & 0x7f_ffff) >> (self.0 >> 40 & 7);
         (self.0 as u32 & 0xff, 0x7f_ffff - s as i64)
+    }
+}
+
+struct Sweep(i64);
+
+impl Stimulus for Sweep {
+    fn new() -> Self {
+        Self(0)
+    }
+
+    #[inline(always)]
+    fn next(&mut self) -> (u32, i64) {
+        let x = self.0 & 0x7f_ffff;
+        self.0 += 1;
+        (ADDRESS, x)
     }
 }
 
@@ -60,9 +79,16 @@ pub(super) fn processor() -> Option<f64> {
 
 /// The clocked simulator, a cycle after the other.
 #[must_use]
-pub fn clocked(design: &Design, cycles: u64) -> Timed {
+pub fn clocked(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
+    match pattern {
+        Pattern::Random => clocked_with::<Random>(design, cycles),
+        Pattern::Sweep => clocked_with::<Sweep>(design, cycles),
+    }
+}
+
+fn clocked_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
     let mut pipeline = Pipeline::new(design.datapath());
-    let mut stimulus = Stimulus::new();
+    let mut stimulus = S::new();
     timed_alone(cycles, || {
         let mut checksum = 0;
         for _ in 0..cycles {
@@ -79,9 +105,16 @@ pub fn clocked(design: &Design, cycles: u64) -> Timed {
 
 /// Many cycles at a time. The results of the last latency are not yet shown, as in the others.
 #[must_use]
-pub fn streamed(design: &Design, cycles: u64) -> Timed {
+pub fn streamed(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
+    match pattern {
+        Pattern::Random => streamed_with::<Random>(design, cycles),
+        Pattern::Sweep => streamed_with::<Sweep>(design, cycles),
+    }
+}
+
+fn streamed_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
     let mut stream = Stream::new(design.datapath());
-    let mut stimulus = Stimulus::new();
+    let mut stimulus = S::new();
     let mut left = cycles.saturating_sub(design.datapath().rank_count() as u64);
     timed_alone(cycles, || {
         let mut checksum = 0;

@@ -12,7 +12,7 @@ use sim::waves::{WaveFormat, WaveWriter};
 use vectors::{Bundle, Strategy};
 
 use super::Timed;
-use super::engines::Stimulus;
+use super::engines::{Random, Stimulus};
 use crate::rtl::Failure;
 
 fn failure(error: impl std::fmt::Display) -> Failure {
@@ -46,7 +46,7 @@ pub fn bundle(design: &Design, vectors: u64, directory: &Path) -> Result<Timed, 
 pub fn naive_vectors(design: &Design, vectors: u64, path: &Path) -> Result<Timed, Failure> {
     let begin = Instant::now();
     let mut out = BufWriter::new(File::create(path).map_err(failure)?);
-    let mut stimulus = Stimulus::new();
+    let mut stimulus = Random::new();
     for _ in 0..vectors {
         let (address, x) = stimulus.next();
         let last = design.datapath().evaluate(address, x);
@@ -69,7 +69,7 @@ pub fn waves(design: &Design, cycles: u64, path: &Path) -> Result<Timed, Failure
     let out = BufWriter::with_capacity(1 << 16, File::create(path).map_err(failure)?);
     let name = &design.config().name;
     let mut writer = WaveWriter::new(WaveFormat::Vcd, out, name, datapath).map_err(failure)?;
-    let (mut pipeline, mut stimulus) = (Pipeline::new(datapath), Stimulus::new());
+    let (mut pipeline, mut stimulus) = (Pipeline::new(datapath), Random::new());
     for index in 0..cycles {
         let (address, x) = stimulus.next();
         let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };

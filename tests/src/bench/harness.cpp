@@ -1,7 +1,7 @@
-// The verilated pipeline under the stimulus of tests/src/bench/engines.rs: a random request in every cycle, each
-// result taken at once. Prints cycles, seconds of the processor, and a checksum of all results.
+// The verilated pipeline under the stimulus of tests/src/bench/engines.rs: a request in every cycle, at random or of
+// a sweep, each result taken at once. Prints cycles, seconds of the processor, and a checksum of all results.
 //
-//   harness CYCLES [FILE.vcd]
+//   harness random|sweep CYCLES [FILE.vcd]
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -21,7 +21,8 @@ static double seconds() {
 }
 
 int main(int argc, char** argv) {
-    const uint64_t cycles = std::strtoull(argv[1], nullptr, 10);
+    const uint64_t cycles = std::strtoull(argv[2], nullptr, 10);
+    const bool sweep = argv[1][0] == 's';
     VerilatedContext context;
 #if VM_TRACE
     context.traceEverOn(true);
@@ -30,7 +31,7 @@ int main(int argc, char** argv) {
 #if VM_TRACE
     VerilatedVcdC waves;
     top.trace(&waves, 99);
-    if (argc > 2) waves.open(argv[2]);
+    if (argc > 3) waves.open(argv[3]);
 #endif
     top.rst_i = 1;
     top.in_valid_i = 0;
@@ -44,11 +45,16 @@ int main(int argc, char** argv) {
     uint64_t state = SEED, checksum = 0;
     const double begin = seconds();
     for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        top.address_i = state & 0xff;
-        top.x_i = 0x7fffff - ((state >> 16 & 0x7fffff) >> (state >> 40 & 7));
+        if (sweep) {
+            top.address_i = ADDRESS;
+            top.x_i = cycle & 0x7fffff;
+        } else {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            top.address_i = state & 0xff;
+            top.x_i = 0x7fffff - ((state >> 16 & 0x7fffff) >> (state >> 40 & 7));
+        }
         if (top.out_valid_o) {
             const uint64_t result = uint64_t(top.intensity_o) << 4 | top.status_o;
             checksum = (checksum << 7 | checksum >> 57) ^ result;
@@ -56,16 +62,16 @@ int main(int argc, char** argv) {
         top.clk_i = 1;
         top.eval();
 #if VM_TRACE
-        if (argc > 2) waves.dump(10 * cycle + 5);
+        if (argc > 3) waves.dump(10 * cycle + 5);
 #endif
         top.clk_i = 0;
         top.eval();
 #if VM_TRACE
-        if (argc > 2) waves.dump(10 * cycle + 10);
+        if (argc > 3) waves.dump(10 * cycle + 10);
 #endif
     }
 #if VM_TRACE
-    if (argc > 2) waves.close();
+    if (argc > 3) waves.close();
 #endif
     const double taken = seconds() - begin;
     std::printf("%llu %.9f %llu\n", (unsigned long long)cycles, taken, (unsigned long long)checksum);

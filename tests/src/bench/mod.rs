@@ -10,6 +10,32 @@ pub mod verilator;
 /// Where the stimulus begins: xorshift64, the same in Rust and in C++.
 pub const SEED: u64 = 88_172_645_463_325_252;
 
+/// The address of a sweep: n = 4, of which most x are above the cut.
+pub const ADDRESS: u32 = 3;
+
+/// What is requested in each cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pattern {
+    /// Address and x at random; 1 − x of all magnitudes, else nearly all would lie below the cut of their exponent.
+    Random,
+    /// One address, and all x in turn.
+    Sweep,
+}
+
+impl Pattern {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Sweep, Self::Random];
+
+    /// For tables and the harness.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Sweep => "sweep",
+        }
+    }
+}
+
 /// One timed run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timed {

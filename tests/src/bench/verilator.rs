@@ -7,7 +7,7 @@ use hw_model::design::Design;
 use hw_model::rtl::{SOURCES, TOP};
 use vectors::Strategy;
 
-use super::{SEED, Timed};
+use super::{ADDRESS, Pattern, SEED, Timed};
 use crate::rtl::simulators::verilator;
 use crate::rtl::workspace::emit;
 use crate::rtl::{Failure, failed};
@@ -38,7 +38,8 @@ impl Verilated {
         }
         command.args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--x-initial"]);
         command.args(["fast", "--noassert", "-Wno-fatal", "-Wno-lint", "-j", "2"]);
-        command.args(["-CFLAGS", &format!("-O3 -march=native -DSEED={SEED}ull")]);
+        command
+            .args(["-CFLAGS", &format!("-O3 -march=native -DSEED={SEED}ull -DADDRESS={ADDRESS}")]);
         command.args(["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O1 CFG_CXXFLAGS_PCH_I=-include"]);
         command.args(["--top-module", TOP, "--Mdir", "harness", "-o", "harness"]);
         command.args(waves.then_some("--trace"));
@@ -53,9 +54,17 @@ impl Verilated {
     ///
     /// # Errors
     /// When it fails, or says something else than it should.
-    pub fn run(&self, cycles: u64, waves: Option<&Path>) -> Result<Timed, Failure> {
+    pub fn run(
+        &self,
+        pattern: Pattern,
+        cycles: u64,
+        waves: Option<&Path>,
+    ) -> Result<Timed, Failure> {
         let mut command = Command::new(&self.program);
-        command.arg(cycles.to_string()).args(waves).current_dir(&self.directory);
+        command
+            .args([pattern.name(), &cycles.to_string()])
+            .args(waves)
+            .current_dir(&self.directory);
         let output = succeeded(&mut command)?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let mut words = text.split_whitespace();

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
 use blysk_tests::bench::verilator::{self, Verilated};
-use blysk_tests::bench::{Rates, Timed, engines, files, significant};
+use blysk_tests::bench::{Pattern, Rates, Timed, engines, files, significant};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::datapath::Block;
 use hw_model::design::Design;
@@ -91,22 +91,33 @@ fn run() -> Result<(), Failure> {
 /// Cycles a second, all three with the same stimulus; their results must be the same first.
 fn cycles(design: &Design, table: &mut Table) -> Result<(), Failure> {
     let verilated = Verilated::build(design, false)?;
-    let theirs = verilated.run(CHECKED, None)?.checksum;
-    let ours = [engines::clocked(design, CHECKED), engines::streamed(design, CHECKED)];
+    Pattern::ALL.into_iter().try_for_each(|pattern| patterned(design, &verilated, pattern, table))
+}
+
+fn patterned(
+    design: &Design,
+    verilated: &Verilated,
+    pattern: Pattern,
+    table: &mut Table,
+) -> Result<(), Failure> {
+    let theirs = verilated.run(pattern, CHECKED, None)?.checksum;
+    let ours =
+        [engines::clocked(design, pattern, CHECKED), engines::streamed(design, pattern, CHECKED)];
     if ours.iter().any(|run| run.checksum != theirs) {
         return failed(format!("{}: results differ from Verilator's", design.config().name));
     }
     let mut rates = [(); 3].map(|()| Rates::default());
     for _ in 0..TURNS {
-        rates[0].push(&verilated.run(CYCLES, None)?);
-        rates[1].push(&engines::clocked(design, CYCLES));
-        rates[2].push(&engines::streamed(design, 10 * CYCLES));
+        rates[0].push(&verilated.run(pattern, CYCLES, None)?);
+        rates[1].push(&engines::clocked(design, pattern, CYCLES));
+        rates[2].push(&engines::streamed(design, pattern, 10 * CYCLES));
     }
     let [theirs, clocked, streamed] = &rates;
     let ratio = |rates: &Rates| Some((rates.median() / theirs.median(), "Verilator"));
-    table.line("Verilator, one thread, no waves", theirs, "cycles", None);
-    table.line("clocked simulator, one thread", clocked, "cycles", ratio(clocked));
-    table.line("many cycles at a time, one thread", streamed, "cycles", ratio(streamed));
+    let what = |who: &str| format!("{who}, {}", pattern.name());
+    table.line(&what("Verilator, no waves"), theirs, "cycles", None);
+    table.line(&what("clocked simulator"), clocked, "cycles", ratio(clocked));
+    table.line(&what("many cycles at a time"), streamed, "cycles", ratio(streamed));
     Ok(())
 }
 
@@ -183,7 +194,11 @@ fn written(design: &Design, table: &mut Table) -> Result<(), Failure> {
         rates[0].push(&files::bundle(design, VECTORS, &in_directory("bundle"))?);
         rates[1].push(&files::naive_vectors(design, VECTORS, &in_directory("naive.mem"))?);
         rates[2].push(&files::waves(design, WAVE_CYCLES, &in_directory("ours.vcd"))?);
-        rates[3].push(&verilated.run(WAVE_CYCLES, Some(&in_directory("theirs.vcd")))?);
+        rates[3].push(&verilated.run(
+            Pattern::Random,
+            WAVE_CYCLES,
+            Some(&in_directory("theirs.vcd")),
+        )?);
     }
     let [bundle, naive, ours, theirs] = &rates;
     let ratio = |ours: &Rates, theirs: &Rates, of| Some((ours.median() / theirs.median(), of));
