@@ -57,9 +57,10 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
 	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
 
-peers: ## the certified bounds beside Sollya's, where that is installed
+peers: ## certified bounds and refined integers beside Sollya's, where that is installed
 	$(CARGO) build --release --locked --quiet --bin blysk
 	@tests/peers/supnorm.py --blysk "$(BLYSK)"
+	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
 
 bench: ## measure speed
 	$(CARGO) bench --package sim --bench throughput --locked

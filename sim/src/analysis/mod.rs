@@ -4,5 +4,6 @@
 pub mod approximation;
 pub mod claims;
 pub mod error_report;
+pub mod refine;
 pub mod stability;
 pub mod sweep;

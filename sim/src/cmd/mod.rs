@@ -10,6 +10,7 @@ mod coefficients;
 mod configuration;
 mod document;
 mod presets;
+mod refine;
 mod report;
 mod rom;
 mod rtl;
@@ -45,6 +46,7 @@ enum Command {
     Claims(claims::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
+    Refine(refine::Args),
     Document(document::Args),
     Stability(stability::Args),
     Presets(presets::Args),
@@ -113,6 +115,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
+        Command::Refine(args) => refine::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),

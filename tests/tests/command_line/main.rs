@@ -9,6 +9,7 @@ mod coefficients;
 mod help;
 mod output;
 mod presets;
+mod refine;
 mod report;
 mod report_against_brute_force;
 mod rom;
