@@ -5,5 +5,6 @@ pub mod approximation;
 pub mod claims;
 pub mod error_report;
 pub mod refine;
+pub mod sizing;
 pub mod stability;
 pub mod sweep;

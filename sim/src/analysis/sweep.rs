@@ -221,8 +221,8 @@ fn difference(left: &[f64], right: &[f64], errors: &mut Vec<f64>) {
 
 /// Quick estimates of x^n for a block of samples, to see which of them need the reference.
 #[derive(Default)]
-struct Powers {
-    estimates: Vec<f64>,
+pub(super) struct Powers {
+    pub estimates: Vec<f64>,
     squares: Vec<f64>,
 }
 
@@ -233,7 +233,7 @@ impl Powers {
     /// of k·2^−53, and squaring doubles what is there, so x^n is off by at most n·2^−52 (x^n ≤ 1).
     /// Other n: the reference itself, exact.
     #[inline(always)]
-    fn estimate(&mut self, exponent: f64, xs: &[i64], ulp: f64) -> f64 {
+    pub fn estimate(&mut self, exponent: f64, xs: &[i64], ulp: f64) -> f64 {
         const GREATEST: f64 = 65_536.0;
         self.squares.clear();
         self.squares.extend(xs.iter().map(|&x| x as f64 * ulp));

@@ -8,6 +8,7 @@ mod check;
 mod claims;
 mod coefficients;
 mod configuration;
+mod design;
 mod document;
 mod presets;
 mod refine;
@@ -47,6 +48,7 @@ enum Command {
     Coefficients(coefficients::Args),
     Rom(rom::Args),
     Refine(refine::Args),
+    Design(design::Args),
     Document(document::Args),
     Stability(stability::Args),
     Presets(presets::Args),
@@ -116,6 +118,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
         Command::Refine(args) => refine::run(&args, out),
+        Command::Design(args) => design::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),

@@ -4,7 +4,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "report",
     "vectors",
     "rtl",
@@ -15,6 +15,7 @@ const COMMANDS: [&str; 13] = [
     "coefficients",
     "rom",
     "refine",
+    "design",
     "document",
     "stability",
     "presets",

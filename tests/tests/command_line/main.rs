@@ -6,6 +6,7 @@
 mod certify;
 mod check;
 mod coefficients;
+mod design;
 mod help;
 mod output;
 mod presets;
