@@ -253,7 +253,8 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
                 let value = Exact::of_f64(segment.c[power] * scale(power as i32));
                 let fraction =
                     design.rom().layout().field(name).map_or(0, |f| f.format.fraction_bits());
-                if value.into_register(fraction, Rounding::NearestEven)
+                let steps = steps_of(design, real.exponent, name);
+                if value.into_register(fraction, Rounding::NearestEven) + steps
                     != BigInt::from(row.get(name))
                 {
                     let text =

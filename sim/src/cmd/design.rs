@@ -8,6 +8,7 @@ use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use hw_model::quantise::{decimal, real};
+use hw_model::rounding::Rounding;
 use vectors::whole_file::WholeFile;
 
 use super::report::{Bar, bound};
@@ -92,6 +93,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     ranking(&sized.ranking).print(out, Format::Table, 5)?;
     writeln!(out)?;
+    write_folded(
+        out,
+        "real: the greatest error in real numbers. cut: the polynomial ends where x^n is this. too far: more than \
+         allowed. no widths: none are proved to keep what the real error leaves. proved: the widths are, and \
+         their hardware is no candidate for narrowing.",
+    )?;
+    writeln!(out)?;
     write_folded(out, &summary(&request, &sized))?;
     writeln!(out)?;
     for_people(&sized).print(out, Format::Table, 8)?;
@@ -118,32 +126,32 @@ fn parts(config: &Config) -> [String; 4] {
         Form::Centred => "centred",
     };
     let cut = match config.cut {
-        Cut::Epicentre => format!("x^n={}", digits(config.q, 3)),
+        Cut::Epicentre => digits(config.q, 4),
         Cut::Minimum => "minimum".to_owned(),
         Cut::Balanced => "balanced".to_owned(),
     };
     let tail = match config.tail {
         Tail::Zero => "zero",
-        Tail::Rational => "rational",
+        Tail::Rational => "ratio",
     };
     [form.to_owned(), config.segments.to_string(), cut, tail.to_owned()]
 }
 
 fn ranking(considered: &[Considered]) -> Rows {
     let mut rows = Rows::new(&[
-        "method", "form", "seg", "cut", "tail", "rounding", "real", "mult", "rom", "lat", "verdict",
+        "method", "form", "seg", "cut", "below", "round", "real", "mult", "rom", "lat", "verdict",
     ]);
     for one in considered {
         let (hardware, verdict) = match &one.verdict {
-            Verdict::TooFar => (None, format!("n = {}: too far", one.real.1)),
-            Verdict::Refused(why) => (None, short(why)),
+            Verdict::TooFar => (None, format!("too far, n = {}", one.real.n)),
+            Verdict::Refused(_) => (None, "no widths".to_owned()),
             Verdict::Proved(hardware) => (Some(*hardware), "proved".to_owned()),
             Verdict::Narrowed(hardware) => (Some(*hardware), "narrowed".to_owned()),
         };
-        let rounding = one.rounding.map_or("any", |rounding| rounding.name());
+        let rounding = one.rounding.map_or("any", short);
         let mut cells = vec![Cell::from(one.config.method.to_string())];
         cells.extend(parts(&one.config).map(Cell::from));
-        cells.extend([Cell::from(rounding), Cell::Real(one.real.0)]);
+        cells.extend([Cell::from(rounding), Cell::Real(one.real.whole)]);
         let of = |value: fn(&Hardware) -> u64| {
             hardware.map_or(Cell::None, |hardware| Cell::Integer(value(&hardware) as i64))
         };
@@ -154,9 +162,13 @@ fn ranking(considered: &[Considered]) -> Rows {
     rows
 }
 
-/// The reason up to its first stop.
-fn short(why: &str) -> String {
-    why.split([';', ':']).next().unwrap_or(why).to_owned()
+const fn short(rounding: Rounding) -> &'static str {
+    match rounding {
+        Rounding::Floor => "floor",
+        Rounding::NearestUp => "up",
+        Rounding::NearestEven => "even",
+        Rounding::TowardZero => "zero",
+    }
 }
 
 fn summary(request: &Request, sized: &Sized) -> String {
@@ -165,18 +177,24 @@ fn summary(request: &Request, sized: &Sized) -> String {
     let [form, segments, cut, tail] = parts(config);
     let n = sized.design.rows()[sized.worst.address as usize].exponent;
     let x = real(sized.worst.x, config.input);
-    let budget = config.error_budget_ulp;
-    format!(
-        "{}, {form}, {segments} segment(s), cut {cut}, tail {tail}, {}: {multiplier_bits} multiplier bits, \
+    let found = format!(
+        "{}, {form}, {segments} segment(s), cut {cut}, {tail} below, {}: {multiplier_bits} multiplier bits, \
          {rom_bits} ROM bits, latency {latency}, {register_bits} bits of stated registers. Greatest error, at every \
-         x of the range: {} at n = {n}, x = {}; allowed {}. error_budget_ulp is set to {budget}, what the \
-         analysis proves of these widths: the error is measured, and the sum of all that might come together \
-         is not within what is allowed.",
+         x of the range: {} at n = {n}, x = {}; allowed {}.",
         config.method,
         config.rounding,
         digits(sized.worst.error, 6),
         digits(x, 9),
         request.error,
+    );
+    let budget = config.error_budget_ulp;
+    let real = sized.ranking.first().map_or(0.0, |best| best.real.answered);
+    if real + budget * config.output.ulp() <= request.error {
+        return found;
+    }
+    format!(
+        "{found} error_budget_ulp is raised to {budget}, which is what the analysis proves of these widths: that \
+         they keep the error is measured, not proved."
     )
 }
 
@@ -188,6 +206,7 @@ fn breaks(witness: &Witness) -> String {
             let value = decimal(bits, format);
             format!("{register} = {value}")
         }
+        Breaks::MoreRom(bits) => format!("{bits} ROM bits"),
         Breaks::NoSuchBit => "no such bit".to_owned(),
     }
 }
@@ -216,14 +235,24 @@ fn for_people(sized: &Sized) -> Rows {
 }
 
 fn witnesses(sized: &Sized) -> Rows {
-    let columns =
-        ["register", "format", "fewer", "n", "x_bits", "error", "overflows", "bits", "in_format"];
+    let columns = [
+        "register",
+        "format",
+        "fewer",
+        "n",
+        "x_bits",
+        "error",
+        "overflows",
+        "bits",
+        "in_format",
+        "rom_bits",
+    ];
     let mut rows = Rows::new(&columns);
     for witness in &sized.witnesses {
         let (error, overflow) = match witness.breaks {
             Breaks::Error(error) => (Some(error), None),
             Breaks::Overflow { register, bits, format } => (None, Some((register, bits, format))),
-            Breaks::NoSuchBit => (None, None),
+            Breaks::MoreRom(_) | Breaks::NoSuchBit => (None, None),
         };
         rows.push(vec![
             witness.register.into(),
@@ -235,6 +264,10 @@ fn witnesses(sized: &Sized) -> Rows {
             overflow.map_or(Cell::None, |(register, ..)| register.into()),
             overflow.map_or(Cell::None, |(_, bits, _)| Cell::Integer(bits)),
             overflow.map_or(Cell::None, |(.., format)| format.to_string().into()),
+            match witness.breaks {
+                Breaks::MoreRom(bits) => Cell::Integer(bits as i64),
+                _ => Cell::None,
+            },
         ]);
     }
     rows

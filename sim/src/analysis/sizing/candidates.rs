@@ -101,25 +101,39 @@ pub fn least_xs(request: &Request) -> Result<Vec<i64>, FitError> {
         .collect()
 }
 
-/// The real error of a configuration, and the exponent where it is greatest; over points of each part, so that
-/// it may be a little more in between.
+/// What a configuration errs by in real numbers. Over points of each part: it may be a little more in between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RealError {
+    /// Everywhere.
+    pub whole: f64,
+    /// The exponent where that is.
+    pub n: f64,
+    /// Where a polynomial or the divider answers: what is put to zero below errs by x^n and by nothing else,
+    /// whatever the widths are.
+    pub answered: f64,
+}
+
+/// The real error of a configuration over x from the least of each row.
+///
 ///
 /// # Errors
 /// When a row cannot be fitted.
-pub fn real_error(config: &Config, least: &[i64]) -> Result<(f64, f64), DesignError> {
+pub fn real_error(config: &Config, least: &[i64]) -> Result<RealError, DesignError> {
     let levels = config.levels()?;
-    let mut worst = (0.0, config.exponents.first());
+    let mut worst = RealError { whole: 0.0, n: config.exponents.first(), answered: 0.0 };
     for (exponent, &least) in config.exponents.iter().zip(least) {
         let row = RealRow::new(config, levels, exponent)?;
-        let error = row_error(config, &row, least);
-        if error > worst.0 {
-            worst = (error, exponent);
+        let (below, answered) = row_error(config, &row, least);
+        worst.answered = worst.answered.max(answered);
+        if below.max(answered) > worst.whole {
+            (worst.whole, worst.n) = (below.max(answered), exponent);
         }
     }
     Ok(worst)
 }
 
-fn row_error(config: &Config, row: &RealRow, least: i64) -> f64 {
+/// Where zero answers, and where anything else does.
+fn row_error(config: &Config, row: &RealRow, least: i64) -> (f64, f64) {
     let (input, ulp) = (config.input, config.input.ulp());
     let greatest = input.max_bits().min(input.one());
     // Schlick's cut means nothing.
@@ -129,8 +143,9 @@ fn row_error(config: &Config, row: &RealRow, least: i64) -> f64 {
         (cut.max(least), row.hand_over - 1),
         (cut.max(row.hand_over).max(least), greatest),
     ];
-    let mut worst = 0.0_f64;
-    for (first, last) in parts {
+    let mut worst = [0.0_f64; 2];
+    for (index, (first, last)) in parts.into_iter().enumerate() {
+        let answered = usize::from(index > 0 || row.tail.is_some());
         let last = last.min(greatest);
         if first > last {
             continue;
@@ -140,8 +155,9 @@ fn row_error(config: &Config, row: &RealRow, least: i64) -> f64 {
             let x = first + (part * (last - first) as f64).round() as i64;
             let s = (input.one() - x) as f64 * ulp;
             let shown = row.value_at_s(s, x >= cut).min(1.0);
-            worst = worst.max((shown - phong(row.exponent, x as f64 * ulp)).abs());
+            let error = (shown - phong(row.exponent, x as f64 * ulp)).abs();
+            worst[answered] = worst[answered].max(error);
         }
     }
-    worst
+    (worst[0], worst[1])
 }

@@ -15,6 +15,8 @@ use super::super::sweep::Powers;
 
 /// x that make one piece of work for a thread.
 const PIECE: i64 = 1 << 16;
+/// Pieces of a row, so that all the places where it fails are learnt at once.
+const LEAST_PIECES: i64 = 16;
 /// x of a row that decide first.
 const SPREAD: i64 = 320;
 /// The last x below 1, every one of them.
@@ -105,41 +107,31 @@ impl Judge {
         failed.is_none()
     }
 
-    /// The greatest error of every row, over every x.
+    /// The greatest error of every piece of every row, over every x.
     pub fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
         let pieces: Vec<(u32, i64, i64)> = (0..)
             .zip(&self.spans)
             .flat_map(|(address, &(first, last))| {
-                let starts = (first..=last).step_by(PIECE as usize);
-                starts.map(move |start| (address, start, last.min(start + PIECE - 1)))
+                // Rows of few x have as many pieces as matter, too.
+                let length = ((last - first) / LEAST_PIECES + 1).min(PIECE);
+                let starts = (first..=last).step_by(length as usize);
+                starts.map(move |start| (address, start, last.min(start + length - 1)))
             })
             .collect();
-        let places: Vec<Place> = pieces
+        pieces
             .into_par_iter()
             .map(|(address, first, last)| {
                 let place = worst(design, address, first, last);
                 progress.advance((last - first + 1) as u64);
                 place
             })
-            .collect();
-        let mut rows: Vec<Place> = Vec::with_capacity(self.spans.len());
-        for place in places {
-            match rows.last_mut() {
-                Some(row) if row.address == place.address => {
-                    if place.error > row.error {
-                        *row = place;
-                    }
-                }
-                _ => rows.push(place),
-            }
-        }
-        rows
+            .collect()
     }
 }
 
-/// The greatest of all rows, the first of equal ones.
-pub fn greatest(rows: &[Place]) -> Option<Place> {
-    rows.iter().copied().reduce(|worst, row| if row.error > worst.error { row } else { worst })
+/// The greatest of all pieces, the first of equal ones.
+pub fn greatest(pieces: &[Place]) -> Option<Place> {
+    pieces.iter().copied().reduce(|worst, row| if row.error > worst.error { row } else { worst })
 }
 
 /// Estimates of x^n spare the reference wherever it could not make the greatest error.

@@ -28,6 +28,7 @@ use thiserror::Error;
 
 use super::error_report::Progress;
 use super::refine::within_its_bound;
+pub use candidates::RealError;
 pub use judge::Place;
 use judge::{Judge, greatest};
 use narrow::State;
@@ -90,8 +91,8 @@ pub struct Considered {
     pub config: Config,
     /// The rounding mode; none where the real error decided.
     pub rounding: Option<Rounding>,
-    /// Its greatest error in real numbers, and the exponent where.
-    pub real: (f64, f64),
+    /// Its error in real numbers.
+    pub real: RealError,
     /// What became of it.
     pub verdict: Verdict,
 }
@@ -221,15 +222,11 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
 }
 
 /// The widths of a candidate that are proved to keep the error, in every rounding mode.
-fn prove(
-    request: &Request,
-    config: &Config,
-    real: (f64, f64),
-) -> Vec<(Considered, Option<Design>)> {
+fn prove(request: &Request, config: &Config, real: RealError) -> Vec<(Considered, Option<Design>)> {
     let considered =
         |rounding, verdict| Considered { config: config.clone(), rounding, real, verdict };
-    let left = request.error - real.0;
-    if left <= 0.0 {
+    let left = request.error - real.answered;
+    if real.whole > request.error || left <= 0.0 {
         return vec![(considered(None, Verdict::TooFar), None)];
     }
     let error_budget_ulp = (PROVED * left / request.output.ulp()).min(super::refine::NO_BUDGET);
@@ -285,13 +282,13 @@ fn settled(base: &Design, state: &State) -> Result<Design, DesignError> {
 /// Why there is nothing.
 fn nothing(request: &Request, built: Vec<(Considered, Option<Design>)>) -> SizingError {
     let nearest = built.into_iter().map(|(considered, _)| considered);
-    let nearest = nearest.min_by(|a, b| a.real.0.total_cmp(&b.real.0));
+    let nearest = nearest.min_by(|a, b| a.real.whole.total_cmp(&b.real.whole));
     let (name, real, why) = nearest.map_or((String::new(), (0.0, 1.0), String::new()), |nearest| {
         let why = match nearest.verdict {
             Verdict::Refused(why) => format!("in real numbers, and {why}"),
             _ => "in real numbers".to_owned(),
         };
-        (nearest.config.method.to_string(), nearest.real, why)
+        (nearest.config.method.to_string(), (nearest.real.whole, nearest.real.n), why)
     });
     SizingError::Nothing { error: request.error, nearest: name, real: real.0, n: real.1, why }
 }
@@ -306,7 +303,7 @@ fn ranked(built: Vec<(Considered, Option<Design>)>) -> Vec<Considered> {
             Verdict::Refused(_) => (2, None),
             Verdict::TooFar => (3, None),
         };
-        key(a).cmp(&key(b)).then_with(|| a.real.0.total_cmp(&b.real.0))
+        key(a).cmp(&key(b)).then_with(|| a.real.whole.total_cmp(&b.real.whole))
     });
     all
 }

@@ -3,8 +3,8 @@
 //! The widths that a design proves add up the worst of every register, which never come together. So bits
 //! are taken away while the chosen x of each row keep the error: single bits first, then one bit more in a
 //! register for one or two fewer in others, where that is less hardware. Who cannot be narrowed any more is
-//! measured at every x. If some row fails, its worst x is chosen from then on, and the search goes on
-//! from the last state that passes it.
+//! measured at every x. Wherever it fails, the worst x is chosen from then on, and the search goes on from the
+//! last state that passes it.
 
 use hw_model::design::{Design, DesignError, Revision};
 use hw_model::format::QFormat;
@@ -46,10 +46,10 @@ pub fn narrow(
             continue;
         }
         let design = loose(base, &state.formats)?;
-        let rows = judge.measured(&design, progress);
-        let failed: Vec<&Place> = rows.iter().filter(|row| row.error > judge.error).collect();
+        let pieces = judge.measured(&design, progress);
+        let failed: Vec<&Place> = pieces.iter().filter(|p| p.error > judge.error).collect();
         if failed.is_empty() {
-            return Ok(greatest(&rows).map(|worst| (state, worst)));
+            return Ok(greatest(&pieces).map(|worst| (state, worst)));
         }
         for place in failed {
             judge.choose(&design, place.address, place.x);

@@ -9,7 +9,7 @@ use super::super::error_report::Progress;
 use super::SizingError;
 use super::judge::{Judge, greatest};
 use super::narrow::{State, loose};
-use super::registers::{Each, NAMES, taken, value, with_fraction, with_integer_less};
+use super::registers::{Each, Hardware, NAMES, taken, value, with_fraction, with_integer_less};
 
 /// At which end the bit is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,6 +34,8 @@ pub enum Breaks {
         /// The format it has then.
         format: QFormat,
     },
+    /// Nothing fails, but a field that is the same in every row is no longer so, and the ROM takes this many bits.
+    MoreRom(u64),
     /// There is no bit at this end, or the divider's dividend would be no integer.
     NoSuchBit,
 }
@@ -100,7 +102,11 @@ impl Court<'_> {
             return self.checked(&design, witness);
         }
         let Some((which, extreme)) = overflow(&formats, &taken(&design)) else {
-            return Err(SizingError::Spare { register });
+            let hardware = Hardware::of(&design, &formats);
+            if hardware < self.state.hardware {
+                return Err(SizingError::Spare { register });
+            }
+            return Ok(Witness { breaks: Breaks::MoreRom(hardware.rom_bits), ..silent });
         };
         self.overflowing(&design, silent, which, formats[which], extreme)
     }
