@@ -106,6 +106,9 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row of zeros.
+    pub(crate) const EMPTY: Self = Self { values: [0; FieldName::ALL.len()] };
+
     /// The bits of a field; 0 where the configuration has no such field.
     #[inline]
     #[must_use]

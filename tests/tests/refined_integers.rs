@@ -112,9 +112,9 @@ fn no_neighbour_is_better() {
 #[test]
 fn the_configuration_carries_the_result() {
     for design in designs() {
-        let refined = refined(&design);
-        let again = Design::new(Config::from_json(&refined.config().to_json()).unwrap()).unwrap();
-        assert_eq!(again.rom(), refined.design.rom());
+        let once = refined(&design);
+        let again = Design::new(Config::from_json(&once.config().to_json()).unwrap()).unwrap();
+        assert_eq!(again.rom(), once.design.rom());
         assert_ne!(again.rom(), design.rom());
         comparison::rom(&again).unwrap_or_else(|complaint| panic!("{complaint}"));
         let mut comparison = Comparison::new(&again);
@@ -124,7 +124,7 @@ fn the_configuration_carries_the_result() {
             assert!(compared.unwrap_or_else(|complaint| panic!("{complaint}")) >= 1024);
         }
         // Refined again, it starts where it ended.
-        for (twice, once) in refined(&again).found.iter().zip(&refined.found) {
+        for (twice, once) in refined(&again).found.iter().zip(&once.found) {
             assert_eq!((twice.n, twice.segment, twice.before), (once.n, once.segment, once.after));
             assert!(twice.after <= twice.before);
         }

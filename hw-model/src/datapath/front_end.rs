@@ -98,6 +98,29 @@ impl FrontEnd {
         Self { variable, ..self }
     }
 
+    /// True where the variable is u with bits dropped, or for the power form x.
+    #[must_use]
+    pub const fn is_plain(&self, centred: bool) -> bool {
+        match self.variable {
+            Some(Variable::U { drop, .. }) => centred && drop > 0,
+            Some(Variable::X) => !centred,
+            None => true,
+        }
+    }
+
+    /// The same plain front end, u rounded by `mode`, with all that the compiler may know of it: it leaves no
+    /// choice in a loop.
+    #[inline(always)]
+    #[must_use]
+    pub const fn known_plain(self, centred: bool, mode: Rounding) -> Self {
+        let (up, drop) = match self.variable {
+            Some(Variable::U { up, drop, .. }) if drop > 0 => (up, drop),
+            _ => (0, 1),
+        };
+        let variable = if centred { Variable::U { up, drop, rounding: mode } } else { Variable::X };
+        Self { variable: Some(variable), ..self }
+    }
+
     /// x clamped to [0, 1].
     #[inline(always)]
     pub fn clamp_input<L: Lane>(&self, x: L) -> L {

@@ -20,7 +20,7 @@ use super::formats::{Formats, PolynomialFormats, TailFormats};
 use super::front_end::{FrontEnd, Region};
 use super::signals::{Register, Signals, Status};
 use super::stage::MultiplyAdd;
-use super::tail::{Divider, Division};
+use super::tail::Divider;
 
 /// Ranks before the middle: fetch and front end.
 const HEAD_RANKS: usize = 2;
@@ -218,9 +218,9 @@ impl Datapath {
             let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
             divider.begin(L::from_bits(signals.tail_x), L::from_bits(a), L::from_bits(b))
         } else {
-            divider.digit_stage(index as u32 - 1, widen::<L>(signals.division))
+            divider.digit_stage(index as u32 - 1, signals.division.widened::<L>())
         };
-        signals.division = narrow(division);
+        signals.division = division.narrowed();
     }
 
     #[inline]
@@ -237,7 +237,7 @@ impl Datapath {
             // A tail answers only where there is a divider.
             Region::Tail => self
                 .divider
-                .map_or(0, |divider| divider.finish(widen::<L>(before.division), one).to_bits()),
+                .map_or(0, |divider| divider.finish(before.division.widened::<L>(), one).to_bits()),
         };
         after
     }
@@ -409,7 +409,14 @@ impl Datapath {
     /// proved range, and a memory needs no gates behind its outputs. The region makes the intensity 0.
     #[must_use]
     pub fn row(&self, address: u32) -> Row {
-        self.rom.row(address).or_else(|| self.rom.row(0)).copied().unwrap_or_default()
+        *self.row_at(if self.rom.row(address).is_some() { address } else { 0 })
+    }
+
+    /// The row at an address that has one.
+    #[inline(always)]
+    pub(super) fn row_at(&self, address: u32) -> &Row {
+        const NONE: &Row = &Row::EMPTY;
+        self.rom.row(address).unwrap_or(NONE)
     }
 }
 
@@ -426,21 +433,5 @@ impl List {
         bits: fn(&Signals) -> i64,
     ) {
         self.registers.push(Register { name, format, computed, bits });
-    }
-}
-
-fn widen<L: Lane>(division: Division<i64>) -> Division<L> {
-    Division {
-        divisor: L::from_bits(division.divisor),
-        remainder: L::from_bits(division.remainder),
-        digits: L::from_bits(division.digits),
-    }
-}
-
-fn narrow<L: Lane>(division: Division<L>) -> Division<i64> {
-    Division {
-        divisor: division.divisor.to_bits(),
-        remainder: division.remainder.to_bits(),
-        digits: division.digits.to_bits(),
     }
 }

@@ -14,7 +14,7 @@ use serde::Serialize;
 use vectors::stimulus::corners::Corners;
 
 use super::approximation::{Region, approximation};
-use super::sweep::{RowErrors, input_quantisation, sweep_row};
+use super::sweep::{RowErrors, Xs, input_quantisation, sweep_row};
 
 /// Points spread evenly over the epicentre, and again over [0, 1].
 pub const SPREAD: i64 = 2048;
@@ -163,7 +163,7 @@ fn sweep_everything(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> 
         .map(|index| {
             let (address, piece) = (index / pieces, index % pieces);
             let last = (piece * PIECE + PIECE - 1).min(greatest);
-            let errors = sweep_row(design, address as u32, piece * PIECE..=last);
+            let errors = sweep_row(design, address as u32, Xs::Run { first: piece * PIECE, last });
             progress.advance(errors.samples);
             errors
         })
@@ -179,7 +179,7 @@ fn sweep_samples(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> {
         .into_par_iter()
         .enumerate()
         .map(|(address, xs)| {
-            let errors = sweep_row(design, address as u32, xs.into_iter());
+            let errors = sweep_row(design, address as u32, Xs::List(&xs));
             progress.advance(errors.samples);
             errors
         })

@@ -10,6 +10,8 @@ mod coefficients;
 mod configuration;
 mod design;
 mod document;
+mod pareto;
+mod pareto_tables;
 mod presets;
 mod refine;
 mod report;
@@ -51,6 +53,7 @@ enum Command {
     Design(design::Args),
     Document(document::Args),
     Stability(stability::Args),
+    Pareto(pareto::Args),
     Presets(presets::Args),
 }
 
@@ -121,6 +124,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Design(args) => design::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
+        Command::Pareto(args) => pareto::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

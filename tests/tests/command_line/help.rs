@@ -4,7 +4,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "report",
     "vectors",
     "rtl",
@@ -18,6 +18,7 @@ const COMMANDS: [&str; 14] = [
     "design",
     "document",
     "stability",
+    "pareto",
     "presets",
 ];
 

@@ -9,6 +9,7 @@ mod coefficients;
 mod design;
 mod help;
 mod output;
+mod pareto;
 mod presets;
 mod refine;
 mod report;

@@ -355,7 +355,7 @@ struct Differences {
 }
 
 /// Compiled for the vector widths named here, the machine's own chosen at run time.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn differences(ys: &[i64]) -> Differences {
     let mut found = Differences { least: 0, greatest: 0, falls: 0 };
     for (below, above) in ys.iter().zip(&ys[1..]) {
