@@ -25,7 +25,8 @@ use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 /// is better. The configuration that --out writes has the steps from the rounded coefficients in
 /// `coefficient_steps`, and states its widths, so that the steps keep their meaning. The table shows the
 /// greatest error before and after, that of the method with real coefficients, and what is between them in
-/// output ulp. All 256 rows of preset precise take about a minute.
+/// output ulp. All 256 rows of preset precise take half a
+/// minute of one core.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk refine --preset compact --exponents 64,128 --out refined.json\n          \
@@ -162,8 +163,8 @@ fn summary(design: &Design, refined: &Refined, out: &mut Out) -> anyhow::Result<
         write_folded(
             out,
             &format!(
-                "error_budget_ulp is {is} instead of {was}: a moved coefficient is proved to be off by its \
-                 steps, whatever the others make up for"
+                "error_budget_ulp is {is} instead of {was}: with its steps a row is proved to be so far from the \
+                 real polynomial, though nearer to x^n"
             ),
         )?;
     }

@@ -188,18 +188,7 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
         Verdict::Refused(_) => (1, None),
         _ => (2, None),
     });
-    let (error, limit) = (request.error, samples(request) / request.finalists.max(1) as u64);
-    let finals = built
-        .par_iter()
-        .with_max_len(1)
-        .take(request.finalists)
-        .filter_map(|(_, design)| design.as_ref())
-        .map(|design| {
-            let mut judge = Judge::new(design, &least, error);
-            let capped = Capped { progress, left: AtomicU64::new(limit) };
-            narrow::narrow(design, &mut judge, &capped).map(|found| (judge, found))
-        })
-        .collect::<Result<Vec<_>, _>>()?;
+    let finals = finals(request, &built, &least, progress)?;
     let mut best: Option<(usize, State)> = None;
     for (index, (_, found)) in finals.iter().enumerate() {
         let Some((state, _)) = found else { continue };
@@ -214,11 +203,32 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
     };
     let design = settled(&base, &state)?;
     let worst = greatest(&judge.measured(&design, &AtomicU64::new(0)));
-    let Some(worst) = worst.filter(|worst| worst.error <= error) else {
+    let Some(worst) = worst.filter(|worst| worst.error <= request.error) else {
         return Err(nothing(request, built));
     };
     let witnesses = witness::witnesses(&base, judge, &state, &AtomicU64::new(0))?;
     Ok(Sized { design, hardware: state.hardware, worst, ranking: ranked(built), witnesses })
+}
+
+/// Narrows the first candidates, each with a judge of its own.
+fn finals(
+    request: &Request,
+    built: &[(Considered, Option<Design>)],
+    least: &[i64],
+    progress: &dyn Progress,
+) -> Result<Vec<(Judge, Option<(State, Place)>)>, DesignError> {
+    let limit = samples(request) / request.finalists.max(1) as u64;
+    built
+        .par_iter()
+        .with_max_len(1)
+        .take(request.finalists)
+        .filter_map(|(_, design)| design.as_ref())
+        .map(|design| {
+            let mut judge = Judge::new(design, least, request.error);
+            let capped = Capped { progress, left: AtomicU64::new(limit) };
+            narrow::narrow(design, &mut judge, &capped).map(|found| (judge, found))
+        })
+        .collect()
 }
 
 /// The widths of a candidate that are proved to keep the error, in every rounding mode.
