@@ -57,9 +57,10 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
 	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
 
-peers: ## the certified bounds beside Sollya's, where that is installed
+peers: ## certified bounds and refined integers beside Sollya's, where that is installed
 	$(CARGO) build --release --locked --quiet --bin blysk
 	@tests/peers/supnorm.py --blysk "$(BLYSK)"
+	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
 
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --package blysk-tests --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)

@@ -12,6 +12,7 @@ use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
 use crate::rounding::Rounding;
+use crate::steps::{self, CoefficientSteps};
 
 /// The variable the polynomial is evaluated in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -143,6 +144,10 @@ pub struct Config {
     /// Formats stated by hand; those not stated are derived from the budget.
     #[serde(default, skip_serializing_if = "StatedWidths::is_empty")]
     pub widths: StatedWidths,
+    /// Coefficients moved away from the nearest integers, by exponent; they mean something only with the
+    /// formats of the coefficients stated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub coefficient_steps: Vec<CoefficientSteps>,
 }
 
 fn default_q() -> f64 {
@@ -238,6 +243,7 @@ impl Config {
         self.check_method()?;
         self.check_segments()?;
         self.check_formats()?;
+        steps::check(self)?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }

@@ -236,7 +236,8 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
         for (name, value) in wanted {
             let fraction =
                 design.rom().layout().field(name).map_or(0, |field| field.format.fraction_bits());
-            let bits = value.into_register(fraction, Rounding::NearestEven);
+            let bits = value.into_register(fraction, Rounding::NearestEven)
+                + steps_of(design, real.exponent, name);
             if bits != BigInt::from(row.get(name)) {
                 let text = format!(
                     "n = {}: ROM field {name} is {}, the real number rounds to {bits}",
@@ -252,7 +253,8 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
                 let value = Exact::of_f64(segment.c[power] * scale(power as i32));
                 let fraction =
                     design.rom().layout().field(name).map_or(0, |f| f.format.fraction_bits());
-                if value.into_register(fraction, Rounding::NearestEven)
+                let steps = steps_of(design, real.exponent, name);
+                if value.into_register(fraction, Rounding::NearestEven) + steps
                     != BigInt::from(row.get(name))
                 {
                     let text =
@@ -270,6 +272,13 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
 
 /// Cut and hand-over are the least x that are not below the ends of the fitted segments, and each segment is
 /// moved up as far as keeps it below 1.
+/// What the configuration moves a field by, beyond rounding.
+fn steps_of(design: &Design, exponent: f64, name: FieldName) -> i32 {
+    let steps = design.config().coefficient_steps.iter().find(|steps| steps.n == exponent);
+    let field = steps.and_then(|steps| steps.moved().find(|&(field, _)| field == name));
+    field.map_or(0, |(_, steps)| steps)
+}
+
 fn segments(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint> {
     let config = design.config();
     let range = if config.cut == Cut::Balanced { Range::Balanced } else { Range::Level(config.q) };

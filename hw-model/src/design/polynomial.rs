@@ -1,5 +1,6 @@
 //! Widths, ROM fields and lines of the polynomial.
 
+use super::doubt::Doubt;
 use super::{DesignError, Outer, Parts, RealRow};
 use crate::budget::error::{FractionBits, Register, Sensitivity, Surroundings};
 use crate::budget::range::{Carried, Range, ranges};
@@ -10,8 +11,8 @@ use crate::datapath::formats::PolynomialFormats;
 use crate::datapath::front_end::Variable;
 use crate::datapath::stage::{Fractions, MultiplyAdd};
 use crate::fit::Method;
-use crate::format::{Overflow, QFormat};
-use crate::quantise::{quantise, real, round_scaled};
+use crate::format::QFormat;
+use crate::quantise::{quantise_moved, real, round_scaled};
 use crate::rom::FieldName;
 use crate::rounding::Rounding;
 
@@ -55,7 +56,7 @@ pub(super) fn derive(
         }
     }
     let (coefficients, rom_rows) = quantise_rows(config, &pieces, &bits, parts)?;
-    let formats = line_formats(config, &rom_rows, coefficients, &bits)?;
+    let formats = line_formats(config, &rom_rows, coefficients, &bits, parts)?;
     check_operands(config, &formats)?;
     front_end_fields(config, rows, parts)?;
     outer_fields(&pieces, coefficients, parts);
@@ -71,10 +72,21 @@ pub(super) struct Pieces {
 
 impl Pieces {
     pub(super) fn of(config: &Config, rows: &[RealRow]) -> Self {
-        Self {
+        let mut pieces = Self {
             first: rows.iter().filter_map(|row| row_polynomial(config, row)).collect(),
             outer: rows.iter().map(|row| row_outer(config, row)).collect(),
+        };
+        for steps in &config.coefficient_steps {
+            // Rows stand in the order of the exponents.
+            let Some(address) = config.exponents.position(steps.n) else { continue };
+            if let Some(first) = pieces.first.get_mut(address) {
+                first.steps = steps.first();
+            }
+            if let Some(Some(outer)) = pieces.outer.get_mut(address) {
+                outer.steps = steps.outer();
+            }
         }
+        pieces
     }
 
     /// All of them, the first segments first.
@@ -137,7 +149,8 @@ pub(super) fn row_polynomial(config: &Config, row: &RealRow) -> Option<RowPolyno
             ([1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)], v)
         }
     };
-    Some(RowPolynomial { exponent: row.exponent, shift: row.shift, coefficients, v, answers })
+    let (exponent, shift) = (row.exponent, row.shift);
+    Some(RowPolynomial { exponent, shift, coefficients, steps: [0; 4], v, answers })
 }
 
 /// The second segment of a row, in v = (hand_over − x)·2^shift.
@@ -152,12 +165,13 @@ fn row_outer(config: &Config, row: &RealRow) -> Option<RowPolynomial> {
         exponent: row.exponent,
         shift: *shift,
         coefficients: [c0, c1 * scale(1), c2 * scale(2), c3 * scale(3)],
+        steps: [0; 4],
         v: (0.0, if answers { length * f64::from(*shift).exp2() } else { 0.0 }),
         answers,
     })
 }
 
-/// Quantises every coefficient, adds the ROM fields, and returns the rows as the ROM has them.
+/// Quantises every coefficient, moves it by its steps, adds the ROM fields, and returns the rows as the ROM has them.
 fn quantise_rows(
     config: &Config,
     pieces: &Pieces,
@@ -176,16 +190,17 @@ fn quantise_rows(
         let mut range = Range::zero();
         for row in &rows {
             let scaled = round_scaled(row.coefficients[index], fraction, COEFFICIENT_ROUNDING)
-                .map_err(refuse(row.exponent))?;
+                .map_err(refuse(row.exponent))?
+                + i128::from(row.steps[index]);
             let value = scaled as f64 * (-f64::from(fraction)).exp2();
             range = range.with((value, value), row.exponent);
         }
         let format = range.format(field.name(), fraction, stated(config, register))?;
         let mut integers = Vec::with_capacity(rows.len());
         for (row, rom_row) in rows.iter().zip(&mut rom_rows) {
-            let integer =
-                quantise(row.coefficients[index], format, COEFFICIENT_ROUNDING, Overflow::Refuse)
-                    .map_err(refuse(row.exponent))?;
+            let (value, steps) = (row.coefficients[index], row.steps[index]);
+            let integer = quantise_moved(value, format, COEFFICIENT_ROUNDING, steps)
+                .map_err(refuse(row.exponent))?;
             rom_row.coefficients[index] = real(integer, format);
             integers.push(integer);
         }
@@ -217,6 +232,7 @@ fn line_formats(
     rom_rows: &[RowPolynomial],
     coefficients: [QFormat; 4],
     bits: &FractionBits,
+    parts: &mut Parts,
 ) -> Result<PolynomialFormats, DesignError> {
     let of = |register: Register| bits[register as usize];
     let surroundings = surroundings(config);
@@ -227,11 +243,23 @@ fn line_formats(
     };
     let [v, t1, t2, t3] = ranges(rom_rows, surroundings.centred, &carried);
     let v_stated = if surroundings.centred { config.widths.u } else { None };
+    // The ranges are a little wider than what is reached: a stated format that does not hold one may still
+    // hold every value, which only the data path can tell.
+    let mut format = |index: usize, range: &Range, register, fraction, stated: Option<QFormat>| {
+        let refusal = match (range.format(register, fraction, stated), stated) {
+            (Err(refusal @ BudgetError::Overflow { .. }), Some(stated)) => (stated, refusal),
+            (format, _) => return format,
+        };
+        let (stated, refusal) = refusal;
+        parts.doubts.push(Doubt { line: index, stated, refusal });
+        Ok(stated)
+    };
+    let v_name = if surroundings.centred { "u" } else { "x" };
     Ok(PolynomialFormats {
-        v: v.format(if surroundings.centred { "u" } else { "x" }, of(Register::V), v_stated)?,
+        v: format(0, &v, v_name, of(Register::V), v_stated)?,
         coefficients,
-        t1: t1.format("t1", lines[0], config.widths.t1)?,
-        t2: t2.format("t2", lines[1], config.widths.t2)?,
+        t1: format(1, &t1, "t1", lines[0], config.widths.t1)?,
+        t2: format(2, &t2, "t2", lines[1], config.widths.t2)?,
         t3: t3.format("t3", lines[2], None)?,
     })
 }

@@ -35,7 +35,8 @@ impl Share {
 
 impl Design {
     /// The part of every register in the error bound; registers that the configuration does not have
-    /// are left out. Of one row of one segment they add up to its [`bounds`](Self::bounds).
+    /// are left out. Of one row of one segment they add up to its [`bounds`](Self::bounds), or to more where
+    /// coefficients are moved by steps, which make up for each other.
     #[must_use]
     pub fn error_shares(&self) -> Vec<Share> {
         let mut all = self.polynomial_shares();

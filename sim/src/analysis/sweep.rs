@@ -362,7 +362,7 @@ fn difference(left: &[f64], right: &[f64], errors: &mut [f64]) {
 /// of k·2^−53, and squaring doubles what is there, so x^n is off by at most n·2^−52 of itself.
 /// Other n: the reference itself, exact.
 #[inline(always)]
-fn estimate(exponent: f64, xs: &[i64], ulp: f64, powers: &mut [f64]) -> f64 {
+pub(super) fn estimate(exponent: f64, xs: &[i64], ulp: f64, powers: &mut [f64]) -> f64 {
     const GREATEST: f64 = 65_536.0;
     // x rises: the last power is the greatest. The factor is far more than an error of powi.
     let last = xs.last().map_or(0.0, |&x| x as f64 * ulp);

@@ -4,7 +4,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 15] = [
     "report",
     "vectors",
     "rtl",
@@ -14,6 +14,8 @@ const COMMANDS: [&str; 13] = [
     "simulate",
     "coefficients",
     "rom",
+    "refine",
+    "design",
     "document",
     "stability",
     "pareto",

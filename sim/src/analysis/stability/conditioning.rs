@@ -214,6 +214,7 @@ fn widths(
         error_budget_ulp: FAITHFUL_ULP,
         segments: 1,
         widths: Default::default(),
+        coefficient_steps: Vec::new(),
     };
     let mut row = Widths {
         method,
