@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs setup setup-all test peers rtl bench exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -64,6 +64,13 @@ peers: ## the certified bounds beside Sollya's, where that is installed
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --package blysk-tests --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package sim --bench throughput --locked
+
+pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
+	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
+	@mkdir -p docs/pareto
+	@cp $(RESULTS)/pareto/pareto.csv docs/pareto.csv
+	@cp $(RESULTS)/pareto/*.svg docs/pareto/
+	@sed -i -e '/^<!-- tables/,/^<!-- end/{/^<!--/!d}' -e '/^<!-- tables/r target/pareto.md' docs/PARETO.md
 
 exhaustive: setup ## every representable x: the error of every preset, and the RTL of two; takes long
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \

@@ -35,7 +35,7 @@ impl Share {
 
 impl Design {
     /// The part of every register in the error bound; registers that the configuration does not have
-    /// are left out. Of one row they add up to its [`bounds`](Self::bounds).
+    /// are left out. Of one row of one segment they add up to its [`bounds`](Self::bounds).
     #[must_use]
     pub fn error_shares(&self) -> Vec<Share> {
         let mut all = self.polynomial_shares();
@@ -139,7 +139,10 @@ mod tests {
                 let sum = |shares: &[Share]| shares.iter().map(|share| share.ulp).sum::<f64>();
                 let bound = design.bounds()[0];
                 let epicentre = bound.coefficient + bound.datapath;
-                assert!((sum(&polynomial) - epicentre).abs() < 1e-9, "{}", preset.name);
+                // Of two segments the worse one counts for each register, and one of them for the bound.
+                let two = design.datapath().has_two_segments();
+                let over = sum(&polynomial) - epicentre;
+                assert!(over > -1e-9 && over < if two { 0.5 } else { 1e-9 }, "{}", preset.name);
                 assert!((sum(&tail) - bound.tail).abs() < 1e-9, "{}", preset.name);
             }
         }

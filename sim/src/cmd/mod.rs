@@ -9,6 +9,8 @@ mod claims;
 mod coefficients;
 mod configuration;
 mod document;
+mod pareto;
+mod pareto_tables;
 mod presets;
 mod report;
 mod rom;
@@ -47,6 +49,7 @@ enum Command {
     Rom(rom::Args),
     Document(document::Args),
     Stability(stability::Args),
+    Pareto(pareto::Args),
     Presets(presets::Args),
 }
 
@@ -115,6 +118,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Rom(args) => rom::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
+        Command::Pareto(args) => pareto::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

@@ -196,10 +196,11 @@ impl Picture<'_> {
         match self.datapath.front_end().variable {
             Some(Variable::U { drop, .. }) => {
                 words.push("x ≥ cut ?".to_owned());
-                words.push("u = (1 − x)·2^e".to_owned());
                 if self.datapath.has_two_segments() {
-                    words.push("x < hand_over: 2nd".to_owned());
-                    words.push("u = (hand_over − x)·2^e".to_owned());
+                    words.push("x ≥ hand_over ?".to_owned());
+                    words.push("u = (start − x)·2^e".to_owned());
+                } else {
+                    words.push("u = (1 − x)·2^e".to_owned());
                 }
                 if drop > 0 {
                     words.push(format!("drops {drop} bits"));
@@ -227,7 +228,9 @@ impl Picture<'_> {
             // The second segment's go with the first's.
             _ => (4, 0.0),
         };
-        let two = self.datapath.is_carried(name) && self.datapath.has_two_segments();
+        let two = self.datapath.has_two_segments()
+            && FieldName::COEFFICIENTS.contains(&name)
+            && self.datapath.is_carried(name);
         let target = self.of_rank(rank);
         let (x, top) = (target.centre() + beside, self.lanes.polynomial);
         match field.place {

@@ -4,7 +4,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "report",
     "vectors",
     "rtl",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 12] = [
     "rom",
     "document",
     "stability",
+    "pareto",
     "presets",
 ];
 

@@ -8,6 +8,7 @@ mod check;
 mod coefficients;
 mod help;
 mod output;
+mod pareto;
 mod presets;
 mod report;
 mod report_against_brute_force;

@@ -43,7 +43,7 @@ use crate::certify::search::{claim_every_exponent, claim_exponent};
 pub(super) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// hermite, three_point, tangent, quadratic, rational, composite, schlick, or all
+    /// hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick, or all
     /// [default: hermite with --all-real-n, else all].
     #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"])]
     method: Option<Methods>,
@@ -174,8 +174,8 @@ fn every_exponent(methods: Option<&Methods>, levels: Levels) -> anyhow::Result<C
     let chosen: Vec<Method> = methods.iter().filter(formula).copied().collect();
     anyhow::ensure!(
         !chosen.is_empty(),
-        "--all-real-n: rational is made for the tail, and minimax has no formula in n; choose another \
-         method"
+        "--all-real-n: rational is made for the tail and not for the epicentre, and minimax has no formula in \
+         n; choose another method"
     );
     let claims = chosen
         .into_par_iter()
