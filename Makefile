@@ -62,10 +62,9 @@ peers: ## certified bounds and refined integers beside Sollya's, where that is i
 	@tests/peers/supnorm.py --blysk "$(BLYSK)"
 	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
 
-bench: ## measure speed
+bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
+	$(CARGO) run --locked --quiet --release --package blysk-tests --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package sim --bench throughput --locked
-	@echo "Every representable x of every exponent of preset paper:"
-	@time $(BLYSK) report --preset paper --exhaustive
 
 pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
 	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
