@@ -29,7 +29,7 @@ use crate::analysis::sizing::{
 /// print the witnesses.
 #[derive(ClapArgs)]
 #[command(
-    after_help = "Example: blysk design --exponents 1..=8 --input UQ1.10 --output UQ1.10 --error 0.01 --out designed.json"
+    after_help = "Example: blysk design --exponents 1..=8 --input UQ1.10 --output UQ1.10 --error 0.01"
 )]
 pub(super) struct Args {
     /// The ROM's exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.

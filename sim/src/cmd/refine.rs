@@ -25,8 +25,7 @@ use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 /// is better. The configuration that --out writes has the steps from the rounded coefficients in
 /// `coefficient_steps`, and states its widths, so that the steps keep their meaning. The table shows the
 /// greatest error before and after, that of the method with real coefficients, and what is between them in
-/// output ulp. All 256 rows of preset precise take half a
-/// minute of one core.
+/// output ulp. All 256 rows of preset precise take half a minute of one core.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk refine --preset compact --exponents 64,128 --out refined.json\n          \

@@ -29,7 +29,7 @@ pub fn search(piece: &Piece<'_>, reach: i32) -> Found {
         after: worst.error,
         x: worst.x,
         method: piece.method,
-        steps: piece.from_rounded(steps),
+        steps: piece.steps_in_all(steps),
     }
 }
 

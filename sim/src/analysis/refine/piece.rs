@@ -142,7 +142,7 @@ impl<'a> Piece<'a> {
     }
 
     /// The steps from the rounded coefficients, where these are from the row as it is.
-    pub fn from_rounded(&self, steps: [i32; 4]) -> [i32; 4] {
+    pub fn steps_in_all(&self, steps: [i32; 4]) -> [i32; 4] {
         let config = self.design.config();
         let before = config.coefficient_steps.iter().find(|row| row.n == self.exponent);
         let before = before.map_or([0; 4], |row| match self.span.outer {
@@ -163,7 +163,7 @@ impl<'a> Piece<'a> {
     /// True where the design's own analysis cannot say that every register holds its values.
     pub fn overflows(&self, steps: [i32; 4]) -> bool {
         let row =
-            CoefficientSteps::none(self.exponent).with(self.span.outer, self.from_rounded(steps));
+            CoefficientSteps::none(self.exponent).with(self.span.outer, self.steps_in_all(steps));
         let revision = Revision {
             widths: self.design.widths(),
             error_budget_ulp: NO_BUDGET,

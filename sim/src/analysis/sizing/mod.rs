@@ -210,13 +210,16 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
     Ok(Sized { design, hardware: state.hardware, worst, ranking: ranked(built), witnesses })
 }
 
+/// What a candidate was judged by, and its narrowest state with the error; none where it has none.
+type Final = (Judge, Option<(State, Place)>);
+
 /// Narrows the first candidates, each with a judge of its own.
 fn finals(
     request: &Request,
     built: &[(Considered, Option<Design>)],
     least: &[i64],
     progress: &dyn Progress,
-) -> Result<Vec<(Judge, Option<(State, Place)>)>, DesignError> {
+) -> Result<Vec<Final>, DesignError> {
     let limit = samples(request) / request.finalists.max(1) as u64;
     built
         .par_iter()

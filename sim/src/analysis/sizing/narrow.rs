@@ -75,6 +75,8 @@ fn attempt(base: &Design, judge: &mut Judge, formats: &Each<QFormat>) -> Option<
 }
 
 fn improved(base: &Design, judge: &mut Judge, state: &State) -> Option<State> {
+    // By one layout of the ROM: a field that is constant in one state may be stored in another.
+    let now = Hardware::of(base, &state.formats);
     let mut promising: Vec<(usize, Hardware, Each<QFormat>)> = moves()
         .filter_map(|moves| {
             let mut formats = state.formats;
@@ -83,7 +85,7 @@ fn improved(base: &Design, judge: &mut Judge, state: &State) -> Option<State> {
             }
             Some((moves.len(), Hardware::of(base, &formats), formats))
         })
-        .filter(|(_, hardware, _)| *hardware < state.hardware)
+        .filter(|(_, hardware, _)| *hardware < now)
         .collect();
     promising.sort_by_key(|&(count, hardware, _)| (count, hardware));
     promising
