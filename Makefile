@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs setup setup-all test peers rtl bench exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -57,14 +57,21 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
 	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
 
-peers: ## the certified bounds beside Sollya's, where that is installed
+peers: ## certified bounds and refined integers beside Sollya's, where that is installed
 	$(CARGO) build --release --locked --quiet --bin blysk
 	@tests/peers/supnorm.py --blysk "$(BLYSK)"
+	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
 
-bench: ## measure speed
+bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
+	$(CARGO) run --locked --quiet --release --package blysk-tests --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package sim --bench throughput --locked
-	@echo "Every representable x of every exponent of preset paper:"
-	@time $(BLYSK) report --preset paper --exhaustive
+
+pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
+	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
+	@mkdir -p docs/pareto
+	@cp $(RESULTS)/pareto/pareto.csv docs/pareto.csv
+	@cp $(RESULTS)/pareto/*.svg docs/pareto/
+	@sed -i -e '/^<!-- tables/,/^<!-- end/{/^<!--/!d}' -e '/^<!-- tables/r target/pareto.md' docs/PARETO.md
 
 exhaustive: setup ## every representable x: the error of every preset, and the RTL of two; takes long
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \

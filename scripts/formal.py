@@ -112,6 +112,8 @@ ALL = [
                 needs="HAS_POLYNOMIAL"),
             Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
                 "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
+            Bug("hand-over not included", "blysk_front_end.sv", "(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
+                "(x) <= blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)", needs="TWO_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
             Bug("cut not of the row", "front_end.sv", ".cut_o(cut), ", ".cut_o(), ", needs="SHIFT_STORED"),
         ],
@@ -154,7 +156,8 @@ ALL = [
 
 
 def constants(package):
-    return {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", package)}
+    found = {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", package)}
+    return found | {"TWO_SEGMENTS": found["SEGMENTS"] - 1}
 
 
 def replace_once(path, old, new):
@@ -213,7 +216,8 @@ class Job:
     @staticmethod
     def narrow(widths, bits):
         """Constants with operands of at most `bits`, and with places that go with them."""
-        operands = ["C3", "C2", "C1", "V", "T1", "T2", "T3", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS"]
+        operands = ["C3", "C2", "C1", "V", "T1", "T2", "T3", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS",
+                    "C3_OUTER", "C2_OUTER", "C1_OUTER"]
         instead = {f"{name}_WIDTH": min(widths[f"{name}_WIDTH"], bits) for name in operands}
         for t in ["T1", "T2", "T3", "DIVISOR"]:
             instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}

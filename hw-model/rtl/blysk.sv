@@ -54,6 +54,13 @@ module blysk #(
   logic [blysk_pkg::C0_WIDTH-1:0]     c0;
   logic [blysk_pkg::CUT_WIDTH-1:0]    cut;
   logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift;
+  // Of the second segment, where there is one.
+  logic [blysk_pkg::C3_OUTER_WIDTH-1:0]    c3_outer;
+  logic [blysk_pkg::C2_OUTER_WIDTH-1:0]    c2_outer;
+  logic [blysk_pkg::C1_OUTER_WIDTH-1:0]    c1_outer;
+  logic [blysk_pkg::C0_OUTER_WIDTH-1:0]    c0_outer;
+  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over;
+  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer;
   logic [blysk_pkg::TAIL_A_WIDTH-1:0] tail_a;
   logic [blysk_pkg::TAIL_B_WIDTH-1:0] tail_b;
 
@@ -73,6 +80,8 @@ module blysk #(
   ) rom (
     .clk_i, .load_i(load[0]), .address_i, .no_word_o(no_word),
     .c3_o(c3), .c2_o(c2), .c1_o(c1), .c0_o(c0), .cut_o(cut), .shift_o(shift),
+    .c3_outer_o(c3_outer), .c2_outer_o(c2_outer), .c1_outer_o(c1_outer), .c0_outer_o(c0_outer),
+    .hand_over_o(hand_over), .shift_outer_o(shift_outer),
     .tail_a_o(tail_a), .tail_b_o(tail_b)
   );
 
@@ -81,10 +90,12 @@ module blysk #(
   logic [blysk_pkg::X_WIDTH-1:0]      tail_x;
   logic [blysk_pkg::REGION_WIDTH-1:0] region;
   logic [blysk_pkg::STATUS_WIDTH-1:0] status;
+  logic                               outer;
 
   blysk_front_end front_end (
     .clk_i, .load_i(load[1]),
     .x_i(x_q), .status_i(fetch_status), .cut_i(cut), .shift_i(shift),
+    .hand_over_i(hand_over), .shift_outer_i(shift_outer), .outer_o(outer),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 
@@ -92,6 +103,26 @@ module blysk #(
   logic [blysk_pkg::T3_WIDTH-1:0] t3_waited;
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : polynomial
+    // The coefficients of the segment that answers.
+    logic [blysk_pkg::C3_WIDTH-1:0] c3_chosen;
+    logic [blysk_pkg::C2_WIDTH-1:0] c2_chosen;
+    logic [blysk_pkg::C1_WIDTH-1:0] c1_chosen;
+    logic [blysk_pkg::C0_WIDTH-1:0] c0_chosen;
+
+    if (blysk_pkg::SEGMENTS > 1) begin : segments
+      assign c3_chosen = outer ? c3_outer : c3;
+      assign c2_chosen = outer ? c2_outer : c2;
+      assign c1_chosen = outer ? c1_outer : c1;
+      assign c0_chosen = outer ? c0_outer : c0;
+    end else begin : one_segment
+      assign c3_chosen = c3;
+      assign c2_chosen = c2;
+      assign c1_chosen = c1;
+      assign c0_chosen = c0;
+      logic unused;
+      assign unused = &{1'b0, outer, c3_outer, c2_outer, c1_outer, c0_outer};
+    end
+
     // A coefficient and the variable wait for the stage that needs them.
     logic [blysk_pkg::C3_WIDTH-1:0] c3_at_1;
     logic [blysk_pkg::C2_WIDTH-1:0] c2_at_1;
@@ -102,14 +133,14 @@ module blysk #(
     logic [blysk_pkg::T2_WIDTH-1:0] t2;
     logic [blysk_pkg::T3_WIDTH-1:0] t3;
 
-    blysk_delay #(.WIDTH(blysk_pkg::C3_WIDTH), .RANKS(1), .STORED(blysk_pkg::C3_STORED)) c3_delay (
-      .clk_i, .load_i(load[1]), .value_i(c3), .value_o(c3_at_1));
-    blysk_delay #(.WIDTH(blysk_pkg::C2_WIDTH), .RANKS(1), .STORED(blysk_pkg::C2_STORED)) c2_delay (
-      .clk_i, .load_i(load[1]), .value_i(c2), .value_o(c2_at_1));
-    blysk_delay #(.WIDTH(blysk_pkg::C1_WIDTH), .RANKS(2), .STORED(blysk_pkg::C1_STORED)) c1_delay (
-      .clk_i, .load_i(load[2:1]), .value_i(c1), .value_o(c1_at_2));
-    blysk_delay #(.WIDTH(blysk_pkg::C0_WIDTH), .RANKS(3), .STORED(blysk_pkg::C0_STORED)) c0_delay (
-      .clk_i, .load_i(load[3:1]), .value_i(c0), .value_o(c0_at_3));
+    blysk_delay #(.WIDTH(blysk_pkg::C3_WIDTH), .RANKS(1), .STORED(blysk_pkg::C3_CARRIED)) c3_delay (
+      .clk_i, .load_i(load[1]), .value_i(c3_chosen), .value_o(c3_at_1));
+    blysk_delay #(.WIDTH(blysk_pkg::C2_WIDTH), .RANKS(1), .STORED(blysk_pkg::C2_CARRIED)) c2_delay (
+      .clk_i, .load_i(load[1]), .value_i(c2_chosen), .value_o(c2_at_1));
+    blysk_delay #(.WIDTH(blysk_pkg::C1_WIDTH), .RANKS(2), .STORED(blysk_pkg::C1_CARRIED)) c1_delay (
+      .clk_i, .load_i(load[2:1]), .value_i(c1_chosen), .value_o(c1_at_2));
+    blysk_delay #(.WIDTH(blysk_pkg::C0_WIDTH), .RANKS(3), .STORED(blysk_pkg::C0_CARRIED)) c0_delay (
+      .clk_i, .load_i(load[3:1]), .value_i(c0_chosen), .value_o(c0_at_3));
     blysk_delay #(.WIDTH(blysk_pkg::V_WIDTH), .RANKS(1)) v_delay_2 (
       .clk_i, .load_i(load[2]), .value_i(v), .value_o(v_at_2));
     blysk_delay #(.WIDTH(blysk_pkg::V_WIDTH), .RANKS(1)) v_delay_3 (
@@ -163,7 +194,7 @@ module blysk #(
   end else begin : no_polynomial
     assign t3_waited = '0;
     logic unused;
-    assign unused = &{1'b0, c3, c2, c1, c0, v};
+    assign unused = &{1'b0, c3, c2, c1, c0, v, outer, c3_outer, c2_outer, c1_outer, c0_outer};
   end
 
   // ---- The middle ranks: the tail -----------------------------------------------------------------

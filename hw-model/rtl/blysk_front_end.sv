@@ -7,10 +7,13 @@
 //   tail        0 <= x < cut, configuration keeps a divider   the divider answers
 //   zero        0 <= x < cut without one; x < 0; no ROM word  the intensity is 0
 //
+// With two segments (SEGMENTS = 2) the second answers from cut up to hand_over: outer_o chooses its
+// coefficients, and its variable counts from hand_over.
+//
 // A part that does not answer is fed a harmless x, for which the ranges of its registers are proved
 // too: the polynomial u = 0, or the greatest x in the power form; the divider x = 0.
 //
-// Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x needs INPUT_FRACTION + 1. u = s * 2^e is
+// Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x (or hand_over - x) needs INPUT_FRACTION + 1. u = s * 2^e is
 // less than 2^V_WIDTH in its own unit for every row's cut, so U_WIDTH = V_WIDTH + U_DROP and a carry
 // bit and a sign hold it before its rounding.
 `default_nettype none
@@ -22,6 +25,9 @@ module blysk_front_end (
   input  logic [blysk_pkg::STATUS_WIDTH-1:0] status_i,
   input  logic [blysk_pkg::CUT_WIDTH-1:0]    cut_i,
   input  logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift_i,
+  input  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over_i,
+  input  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer_i,
+  output logic                               outer_o,       // not registered
   output logic [blysk_pkg::V_WIDTH-1:0]      v_o,
   output logic [blysk_pkg::X_WIDTH-1:0]      tail_x_o,
   output logic [blysk_pkg::REGION_WIDTH-1:0] region_o,
@@ -70,6 +76,16 @@ module blysk_front_end (
   end
   assign region_o = region_q;
 
+  // ---- Which segment -------------------------------------------------------------------------------
+  if (blysk_pkg::SEGMENTS > 1) begin : segments
+    assign outer_o = region_d == blysk_pkg::REGION_POLYNOMIAL
+        && blysk_pkg::HAND_OVER_COMPARE_WIDTH'(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i);
+  end else begin : one_segment
+    assign outer_o = 1'b0;
+    logic unused;
+    assign unused = &{1'b0, hand_over_i, shift_outer_i};
+  end
+
   // ---- The polynomial's variable: x, or u = (1 - x) * 2^e -----------------------------------------
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : variable
     logic [blysk_pkg::V_WIDTH-1:0] v_d, v_q;
@@ -77,11 +93,19 @@ module blysk_front_end (
     if (blysk_pkg::CENTRED != 0) begin : centred
       localparam int S_WIDTH = blysk_pkg::INPUT_FRACTION + 1;
       localparam int U_WIDTH = blysk_pkg::V_WIDTH + blysk_pkg::U_DROP + 2;
-      logic        [S_WIDTH-1:0] s;
-      logic signed [U_WIDTH-1:0] u;
-      assign s = region_d == blysk_pkg::REGION_POLYNOMIAL
-          ? (S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION) - S_WIDTH'(x) : '0;
-      assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift_i;
+      localparam int SHIFT_BITS = blysk_pkg::SHIFT_COMMON_WIDTH;
+      logic        [S_WIDTH-1:0]    start, s;
+      logic        [SHIFT_BITS-1:0] shift;
+      logic signed [U_WIDTH-1:0]    u;
+      if (blysk_pkg::SEGMENTS > 1) begin : second
+        assign start = outer_o ? S_WIDTH'(hand_over_i) : S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
+        assign shift = outer_o ? SHIFT_BITS'(shift_outer_i) : SHIFT_BITS'(shift_i);
+      end else begin : first
+        assign start = S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
+        assign shift = SHIFT_BITS'(shift_i);
+      end
+      assign s = region_d == blysk_pkg::REGION_POLYNOMIAL ? start - S_WIDTH'(x) : '0;
+      assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift;
       blysk_round_shift #(
         .IN_WIDTH(U_WIDTH), .DROP(blysk_pkg::U_DROP), .OUT_WIDTH(blysk_pkg::V_WIDTH), .MODE(blysk_pkg::U_ROUNDING)
       ) round_u (

@@ -19,6 +19,12 @@ module blysk_rom #(
   output logic [blysk_pkg::C0_WIDTH-1:0]      c0_o,
   output logic [blysk_pkg::CUT_WIDTH-1:0]     cut_o,
   output logic [blysk_pkg::SHIFT_WIDTH-1:0]   shift_o,
+  output logic [blysk_pkg::C3_OUTER_WIDTH-1:0] c3_outer_o,
+  output logic [blysk_pkg::C2_OUTER_WIDTH-1:0] c2_outer_o,
+  output logic [blysk_pkg::C1_OUTER_WIDTH-1:0] c1_outer_o,
+  output logic [blysk_pkg::C0_OUTER_WIDTH-1:0] c0_outer_o,
+  output logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over_o,
+  output logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer_o,
   output logic [blysk_pkg::TAIL_A_WIDTH-1:0]  tail_a_o,
   output logic [blysk_pkg::TAIL_B_WIDTH-1:0]  tail_b_o
 );
@@ -84,6 +90,36 @@ module blysk_rom #(
     assign tail_b_o = word_q[blysk_pkg::TAIL_B_LSB+:blysk_pkg::TAIL_B_WIDTH];
   end else begin : tail_b_constant
     assign tail_b_o = blysk_pkg::TAIL_B_CONSTANT;
+  end
+  if (blysk_pkg::C3_OUTER_STORED != 0) begin : c3_outer
+    assign c3_outer_o = word_q[blysk_pkg::C3_OUTER_LSB+:blysk_pkg::C3_OUTER_WIDTH];
+  end else begin : c3_outer_constant
+    assign c3_outer_o = blysk_pkg::C3_OUTER_CONSTANT;
+  end
+  if (blysk_pkg::C2_OUTER_STORED != 0) begin : c2_outer
+    assign c2_outer_o = word_q[blysk_pkg::C2_OUTER_LSB+:blysk_pkg::C2_OUTER_WIDTH];
+  end else begin : c2_outer_constant
+    assign c2_outer_o = blysk_pkg::C2_OUTER_CONSTANT;
+  end
+  if (blysk_pkg::C1_OUTER_STORED != 0) begin : c1_outer
+    assign c1_outer_o = word_q[blysk_pkg::C1_OUTER_LSB+:blysk_pkg::C1_OUTER_WIDTH];
+  end else begin : c1_outer_constant
+    assign c1_outer_o = blysk_pkg::C1_OUTER_CONSTANT;
+  end
+  if (blysk_pkg::C0_OUTER_STORED != 0) begin : c0_outer
+    assign c0_outer_o = word_q[blysk_pkg::C0_OUTER_LSB+:blysk_pkg::C0_OUTER_WIDTH];
+  end else begin : c0_outer_constant
+    assign c0_outer_o = blysk_pkg::C0_OUTER_CONSTANT;
+  end
+  if (blysk_pkg::HAND_OVER_STORED != 0) begin : hand_over
+    assign hand_over_o = word_q[blysk_pkg::HAND_OVER_LSB+:blysk_pkg::HAND_OVER_WIDTH];
+  end else begin : hand_over_constant
+    assign hand_over_o = blysk_pkg::HAND_OVER_CONSTANT;
+  end
+  if (blysk_pkg::SHIFT_OUTER_STORED != 0) begin : shift_outer
+    assign shift_outer_o = word_q[blysk_pkg::SHIFT_OUTER_LSB+:blysk_pkg::SHIFT_OUTER_WIDTH];
+  end else begin : shift_outer_constant
+    assign shift_outer_o = blysk_pkg::SHIFT_OUTER_CONSTANT;
   end
 
 endmodule

@@ -12,6 +12,7 @@ use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
 use crate::rounding::Rounding;
+use crate::steps::{self, CoefficientSteps};
 
 /// The variable the polynomial is evaluated in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +45,9 @@ pub enum Cut {
     /// fallen to half an output ulp, which a zero shows as well; or, with
     /// `multiplier_operand_bits`, where u would reach 2.
     Minimum,
+    /// Where x^n has fallen to the greatest error of the polynomial above, so that a zero below errs no more.
+    /// Only for `minimax`, whose range it is.
+    Balanced,
 }
 
 /// Formats stated by hand instead of derived. They are checked: a register that could overflow is
@@ -95,7 +99,7 @@ impl StatedWidths {
 pub struct Config {
     /// A name for files and reports.
     pub name: String,
-    /// hermite, three_point, tangent, quadratic, or schlick.
+    /// hermite, three_point, tangent, minimax, quadratic, or schlick.
     pub method: Method,
     /// The exponents of the ROM, in the order of their addresses: `1..=256`, `1,2,8,64`.
     pub exponents: Exponents,
@@ -121,6 +125,9 @@ pub struct Config {
     /// Where the polynomial stops.
     #[serde(default = "default_cut")]
     pub cut: Cut,
+    /// Cubics for one exponent, 1 or 2. The second counts from where the first hands over to it.
+    #[serde(default = "default_segments", skip_serializing_if = "is_one")]
+    pub segments: u32,
     /// The rounding of every line.
     #[serde(default)]
     pub rounding: Rounding,
@@ -137,6 +144,10 @@ pub struct Config {
     /// Formats stated by hand; those not stated are derived from the budget.
     #[serde(default, skip_serializing_if = "StatedWidths::is_empty")]
     pub widths: StatedWidths,
+    /// Coefficients moved away from the nearest integers, by exponent; they mean something only with the
+    /// formats of the coefficients stated.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub coefficient_steps: Vec<CoefficientSteps>,
 }
 
 fn default_q() -> f64 {
@@ -150,6 +161,14 @@ const fn default_form() -> Form {
 }
 const fn default_tail() -> Tail {
     Tail::Zero
+}
+const fn default_segments() -> u32 {
+    1
+}
+// serde hands over a reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+const fn is_one(segments: &u32) -> bool {
+    *segments == 1
 }
 const fn default_cut() -> Cut {
     Cut::Epicentre
@@ -222,7 +241,9 @@ impl Config {
             return wrong("name", "use letters, digits, - and _; it becomes part of file names");
         }
         self.check_method()?;
+        self.check_segments()?;
         self.check_formats()?;
+        steps::check(self)?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }
@@ -244,8 +265,8 @@ impl Config {
             ),
             Method::Rational => wrong(
                 "method",
-                "rational answers on the tail only: say hermite, three_point, tangent, quadratic \
-                 or schlick, with \"tail\": \"rational\"",
+                "rational answers on the tail only: say hermite, three_point, tangent, minimax, \
+                 quadratic or schlick, with \"tail\": \"rational\"",
             ),
             Method::Schlick if self.tail != Tail::Rational => {
                 wrong("tail", "schlick is a ratio: say \"tail\": \"rational\"")
@@ -257,6 +278,35 @@ impl Config {
             ),
             _ => Ok(()),
         }
+    }
+
+    fn check_segments(&self) -> Result<(), ConfigError> {
+        if !(1..=2).contains(&self.segments) {
+            return wrong("segments", "use 1 or 2");
+        }
+        if self.cut == Cut::Balanced && self.method != Method::Minimax {
+            return wrong(
+                "cut",
+                "only minimax is fitted to a range whose end is chosen for it: say \"method\": \
+                 \"minimax\", or \"cut\": \"minimum\"",
+            );
+        }
+        if self.segments == 1 {
+            return Ok(());
+        }
+        if self.method != Method::Minimax || self.form != Form::Centred || self.tail != Tail::Zero {
+            return wrong(
+                "segments",
+                "two segments are for \"method\": \"minimax\", \"form\": \"centred\", \"tail\": \"zero\"",
+            );
+        }
+        if self.cut == Cut::Minimum {
+            return wrong(
+                "cut",
+                "two segments end at q or where they are balanced: say \"balanced\"",
+            );
+        }
+        Ok(())
     }
 
     fn check_formats(&self) -> Result<(), ConfigError> {

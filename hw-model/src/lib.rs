@@ -17,3 +17,4 @@ pub mod quantise;
 pub mod rom;
 pub mod rounding;
 pub mod rtl;
+pub mod steps;

@@ -18,11 +18,12 @@ macro_rules! preset {
 }
 
 /// Every preset, the paper's first and the baseline last.
-pub const ALL: [Preset; 5] = [
+pub const ALL: [Preset; 6] = [
     preset!("paper"),
     preset!("blooming"),
     preset!("tangent"),
     preset!("compact"),
+    preset!("precise"),
     preset!("schlick"),
 ];
 

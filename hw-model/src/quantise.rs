@@ -75,6 +75,23 @@ pub fn round_scaled(
     Ok(integer.to_num::<i128>())
 }
 
+/// The same, moved by `steps` units of the last place after rounding, and never brought into range.
+///
+/// # Errors
+/// When `value` is not finite, or the result outside the format.
+pub fn quantise_moved(
+    value: f64,
+    format: QFormat,
+    rounding: Rounding,
+    steps: i32,
+) -> Result<i64, QuantiseError> {
+    let bits = round_scaled(value, format.fraction_bits(), rounding)? + i128::from(steps);
+    let moved = value + f64::from(steps) * format.ulp();
+    format
+        .fit(bits, Overflow::Refuse)
+        .map_err(|DoesNotFit { .. }| QuantiseError::Overflow { value: moved, format })
+}
+
 /// The real value of `bits` in `format`, rounded to the nearest `f64` when it has more than 53
 /// significant bits (exact otherwise).
 #[must_use]

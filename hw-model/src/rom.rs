@@ -27,18 +27,49 @@ pub enum FieldName {
     C0,
     /// The least x at which the polynomial answers.
     Cut,
-    /// e, the places s = 1 − x is moved up to become u.
+    /// The places s = 1 − x is moved up to become u.
     Shift,
     /// A of the tail x/(A − B·x).
     TailA,
     /// B of the tail.
     TailB,
+    /// Coefficient of v³ of the second segment.
+    C3Outer,
+    /// Coefficient of v² of the second segment.
+    C2Outer,
+    /// Coefficient of v of the second segment.
+    C1Outer,
+    /// Constant coefficient of the second segment.
+    C0Outer,
+    /// The least x of the first segment, from which v counts in the second.
+    HandOver,
+    /// The places `hand_over` − x is moved up to become v in the second segment.
+    ShiftOuter,
 }
 
 impl FieldName {
     /// Every field, in the order in which they are packed.
-    pub const ALL: [Self; 8] =
-        [Self::C3, Self::C2, Self::C1, Self::C0, Self::Cut, Self::Shift, Self::TailA, Self::TailB];
+    pub const ALL: [Self; 14] = [
+        Self::C3,
+        Self::C2,
+        Self::C1,
+        Self::C0,
+        Self::Cut,
+        Self::Shift,
+        Self::TailA,
+        Self::TailB,
+        Self::C3Outer,
+        Self::C2Outer,
+        Self::C1Outer,
+        Self::C0Outer,
+        Self::HandOver,
+        Self::ShiftOuter,
+    ];
+    /// c0, c1, c2, c3 of the first segment.
+    pub const COEFFICIENTS: [Self; 4] = [Self::C0, Self::C1, Self::C2, Self::C3];
+    /// The same of the second.
+    pub const OUTER_COEFFICIENTS: [Self; 4] =
+        [Self::C0Outer, Self::C1Outer, Self::C2Outer, Self::C3Outer];
 
     /// The name used in files and RTL.
     #[must_use]
@@ -52,6 +83,12 @@ impl FieldName {
             Self::Shift => "shift",
             Self::TailA => "tail_a",
             Self::TailB => "tail_b",
+            Self::C3Outer => "c3_outer",
+            Self::C2Outer => "c2_outer",
+            Self::C1Outer => "c1_outer",
+            Self::C0Outer => "c0_outer",
+            Self::HandOver => "hand_over",
+            Self::ShiftOuter => "shift_outer",
         }
     }
 }
@@ -69,6 +106,9 @@ pub struct Row {
 }
 
 impl Row {
+    /// A row of zeros.
+    pub(crate) const EMPTY: Self = Self { values: [0; FieldName::ALL.len()] };
+
     /// The bits of a field; 0 where the configuration has no such field.
     #[inline]
     #[must_use]
@@ -81,11 +121,28 @@ impl Row {
         self.values[name as usize] = bits;
     }
 
-    /// e as a shift count. It is ⌊log2 n⌋, less than 64.
+    /// The first segment's shift count. It is at most ⌊log2 n⌋, less than 64.
     #[inline]
     #[must_use]
     pub const fn shift(&self) -> u32 {
         self.get(FieldName::Shift) as u32
+    }
+
+    /// The second segment's.
+    #[inline]
+    #[must_use]
+    pub const fn shift_outer(&self) -> u32 {
+        self.get(FieldName::ShiftOuter) as u32
+    }
+
+    /// The row with the second segment's coefficients in the places of the first's.
+    #[inline]
+    #[must_use]
+    pub fn in_outer(mut self) -> Self {
+        for (to, from) in FieldName::COEFFICIENTS.into_iter().zip(FieldName::OUTER_COEFFICIENTS) {
+            self.set(to, self.get(from));
+        }
+        self
     }
 }
 

@@ -66,3 +66,24 @@ fn a_block_gives_what_the_ranks_give() {
         }
     }
 }
+
+/// A run of consecutive x, from below 0 or across the cut to above 1, gives what the block gives.
+#[test]
+fn a_run_gives_what_a_block_gives() {
+    for preset in presets::ALL {
+        let design = Design::new(preset.config().unwrap()).unwrap();
+        let datapath = design.datapath();
+        let one = design.config().input.one();
+        let mut block = Block::default();
+        let mut run = vec![0; 1500];
+        for address in [0, 1, 2, 3, 63, 255, 256, 300] {
+            let cut = design.rows().get(address as usize).map_or(one, |row| row.cut);
+            for first in [-700, 0, cut - 700, cut, cut + 1, one - 1400] {
+                let xs: Vec<i64> = (first..).take(run.len()).collect();
+                datapath.evaluate_block(address, &xs, &mut block);
+                datapath.evaluate_run(address, first, &mut run);
+                assert_eq!(run, block.intensities, "{} {address} {first}", preset.name);
+            }
+        }
+    }
+}

@@ -9,10 +9,10 @@ use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::presets;
-use sim::analysis::sweep::sweep_row;
+use sim::analysis::sweep::{Xs, sweep_row};
 use sim::pipeline::{Inputs, Pipeline};
 
-const PRESETS: [&str; 5] = ["paper", "blooming", "tangent", "compact", "schlick"];
+const PRESETS: [&str; 6] = ["paper", "blooming", "tangent", "compact", "precise", "schlick"];
 /// n = 64.
 const ADDRESS: u32 = 63;
 /// Samples of a run: every 128th x of a preset's input.
@@ -61,11 +61,11 @@ fn block(bencher: Bencher<'_, '_>, preset: &str) {
 fn sweep(bencher: Bencher<'_, '_>, preset: &str) {
     let design = design(preset);
     let xs = samples(&design);
-    let errors = sweep_row(&design, ADDRESS, xs.iter().copied());
+    let errors = sweep_row(&design, ADDRESS, Xs::List(&xs));
     assert!(errors.implementation.error <= design.config().output.ulp());
     bencher
         .counter(ItemsCount::new(xs.len()))
-        .bench_local(|| sweep_row(&design, ADDRESS, black_box(&xs).iter().copied()));
+        .bench_local(|| sweep_row(&design, ADDRESS, Xs::List(black_box(&xs))));
 }
 
 /// The clocked pipeline, a request and a result in every cycle.

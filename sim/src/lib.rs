@@ -10,5 +10,6 @@ pub mod pipeline;
 pub mod plot;
 pub mod report;
 pub mod run;
+pub mod stream;
 pub mod trace;
 pub mod waves;

@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use crate::pipeline::{Inputs, Outputs, Pipeline, Rank};
+use crate::pipeline::{Inputs, Outputs, Pipeline, Ranks};
 
 /// One cycle of stimulus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct Cycle<'a> {
     /// What the pipeline showed.
     pub outputs: &'a Outputs,
     /// Every register before the edge.
-    pub ranks: &'a [Rank],
+    pub ranks: Ranks<'a>,
 }
 
 /// What a run counted.
@@ -87,7 +87,7 @@ impl Counts {
         self.results += u64::from(delivered);
         self.stalls += u64::from(outputs.out_valid && !inputs.out_ready && !inputs.reset);
         if inputs.reset {
-            self.lost_to_reset += ranks.iter().filter(|rank| rank.valid).count() as u64;
+            self.lost_to_reset += u64::from(ranks.in_flight());
         }
     }
 }

@@ -52,7 +52,7 @@ impl<W: Write> TraceWriter<W> {
     pub fn cycle(&mut self, cycle: &Cycle<'_>) -> io::Result<()> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
         let flag = |flag: bool| i64::from(flag);
-        let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
+        let shown = cycle.ranks.last().loaded;
         let ports = [
             Some(cycle.index as i64),
             Some(flag(inputs.reset)),

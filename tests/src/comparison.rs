@@ -4,9 +4,10 @@ use std::fmt;
 
 use hw_model::config::{Cut, Form};
 use hw_model::datapath::{Block, Register};
-use hw_model::design::{Design, RealRow};
+use hw_model::design::{Design, Outer, RealRow};
+use hw_model::fit::minimax::{self, Range};
 use hw_model::format::QFormat;
-use hw_model::rom::FieldName;
+use hw_model::rom::{FieldName, Row};
 use hw_model::rounding::Rounding;
 use num_bigint::BigInt;
 
@@ -171,6 +172,12 @@ impl<'a> Comparison<'a> {
 /// The sum of the magnitudes that meet in the row's real function at 1 − s.
 fn size(row: &RealRow, s: f64, above_cut: bool) -> f64 {
     match (&row.polynomial, &row.tail) {
+        (Some(_), _) if above_cut && row.outer.is_some_and(|outer| s > outer.segment.start) => {
+            let c = row.outer.map_or([0.0; 4], |outer| outer.segment.c.map(f64::abs));
+            let v = s - row.outer.map_or(0.0, |outer| outer.segment.start);
+            // s itself is rounded, and moves the value by its slope.
+            c[0] + (v + s) * (c[1] + v * (c[2] + v * c[3]))
+        }
         (Some(cubic), _) if above_cut => {
             let k = &cubic.centred;
             1.0 + s * (k.k1.abs() + s * (k.k2.abs() + s * k.k3.abs()))
@@ -196,6 +203,11 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
     for (real, row) in design.rows().iter().zip(design.rom().rows()) {
         // Counted up, because a logarithm may round up to the next integer.
         let shift = (1..64).take_while(|&e| 2_f64.powi(e) <= real.exponent).count() as i32;
+        let fitted = design.config().cut == Cut::Balanced || design.config().segments == 2;
+        let shift = if fitted { real.shift as i32 } else { shift };
+        if fitted {
+            segments(design, real, row)?;
+        }
         let mut wanted = Vec::new();
         if let Some(cubic) = &real.polynomial {
             let coefficients = match design.config().form {
@@ -224,7 +236,8 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
         for (name, value) in wanted {
             let fraction =
                 design.rom().layout().field(name).map_or(0, |field| field.format.fraction_bits());
-            let bits = value.into_register(fraction, Rounding::NearestEven);
+            let bits = value.into_register(fraction, Rounding::NearestEven)
+                + steps_of(design, real.exponent, name);
             if bits != BigInt::from(row.get(name)) {
                 let text = format!(
                     "n = {}: ROM field {name} is {}, the real number rounds to {bits}",
@@ -234,7 +247,73 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
                 return complain(Kind::Rom, text);
             }
         }
-        cut(design, real, row.get(FieldName::Cut))?;
+        if let Some(Outer { segment, shift }) = &real.outer {
+            let scale = |power: i32| 2_f64.powi(-power * *shift as i32);
+            for (power, name) in FieldName::OUTER_COEFFICIENTS.into_iter().enumerate() {
+                let value = Exact::of_f64(segment.c[power] * scale(power as i32));
+                let fraction =
+                    design.rom().layout().field(name).map_or(0, |f| f.format.fraction_bits());
+                let steps = steps_of(design, real.exponent, name);
+                if value.into_register(fraction, Rounding::NearestEven) + steps
+                    != BigInt::from(row.get(name))
+                {
+                    let text =
+                        format!("n = {}: ROM field {name} is {}", real.exponent, row.get(name));
+                    return complain(Kind::Rom, text);
+                }
+            }
+        }
+        if !fitted {
+            cut(design, real, row.get(FieldName::Cut))?;
+        }
+    }
+    Ok(())
+}
+
+/// Cut and hand-over are the least x that are not below the ends of the fitted segments, and each segment is
+/// moved up as far as keeps it below 1.
+/// What the configuration moves a field by, beyond rounding.
+fn steps_of(design: &Design, exponent: f64, name: FieldName) -> i32 {
+    let steps = design.config().coefficient_steps.iter().find(|steps| steps.n == exponent);
+    let field = steps.and_then(|steps| steps.moved().find(|&(field, _)| field == name));
+    field.map_or(0, |(_, steps)| steps)
+}
+
+fn segments(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint> {
+    let config = design.config();
+    let range = if config.cut == Cut::Balanced { Range::Balanced } else { Range::Level(config.q) };
+    let count = config.segments as usize;
+    let fitted = minimax::segments(real.exponent, count, range)
+        .map_err(|error| Complaint { kind: Kind::Rom, text: error.to_string() })?;
+    let least_x = |s: f64| {
+        -(Exact::of_f64(s) - Exact::of_bits(1, 0))
+            .into_register(config.input.fraction_bits(), Rounding::Floor)
+    };
+    let last = *fitted.ends.last().expect("a fit has a segment");
+    let first = if count == 2 && fitted.further.is_empty() { last / 2.0 } else { fitted.ends[0] };
+    let mut wanted = vec![(FieldName::Cut, least_x(last))];
+    if count == 2 {
+        wanted.push((FieldName::HandOver, least_x(first)));
+    }
+    for (name, wanted) in wanted {
+        if wanted != BigInt::from(row.get(name)) {
+            let text = format!("n = {}: {name} is {}, not {wanted}", real.exponent, row.get(name));
+            return complain(Kind::Rom, text);
+        }
+    }
+    let start = 1.0 - row.get(FieldName::HandOver) as f64 * config.input.ulp();
+    let lengths = [(FieldName::Shift, first), (FieldName::ShiftOuter, last - start)];
+    for (name, length) in lengths.into_iter().take(count).filter(|_| config.form == Form::Centred) {
+        let (reach, most) = (length * 2_f64.powi(row.get(name) as i32), 1.0 - 1.0 / 128.0);
+        let kept = reach <= most || row.get(name) == 0;
+        if !kept || (reach * 2.0 <= most && row.get(name) < 62) {
+            let text = format!(
+                "n = {}: {name} {} brings {length} to {reach}",
+                real.exponent,
+                row.get(name)
+            );
+            return complain(Kind::Rom, text);
+        }
     }
     Ok(())
 }
@@ -248,7 +327,7 @@ fn cut(design: &Design, real: &RealRow, got: i64) -> Result<(), Complaint> {
     let greatest_u =
         if config.multiplier_operand_bits.is_some() { 2.0 - 1.0 / 128.0 } else { f64::INFINITY };
     let s = match config.cut {
-        Cut::Epicentre => real.epicentre,
+        Cut::Epicentre | Cut::Balanced => real.epicentre,
         Cut::Minimum => cubic
             .centred
             .first_minimum()

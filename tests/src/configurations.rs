@@ -48,8 +48,14 @@ impl Random {
 }
 
 /// The methods a configuration can have.
-pub const METHODS: [Method; 5] =
-    [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic, Method::Schlick];
+pub const METHODS: [Method; 6] = [
+    Method::Hermite,
+    Method::ThreePoint,
+    Method::Tangent,
+    Method::Minimax,
+    Method::Quadratic,
+    Method::Schlick,
+];
 
 /// A configuration with every field at its default, to be changed field by field.
 ///
@@ -75,6 +81,12 @@ pub fn random(random: &mut Random) -> Config {
     config.quotient_bits_per_stage = random.integer(1, 8) as u32;
     if config.method == Method::Schlick {
         config.tail = Tail::Rational;
+    }
+    if config.method == Method::Minimax && !random.once_in(3) {
+        config.segments = random.one_of(&[1, 2, 2]);
+        config.cut = random.one_of(&[Cut::Epicentre, Cut::Balanced]);
+        config.tail = Tail::Zero;
+        config.form = if config.segments == 2 { Form::Centred } else { config.form };
     }
     if config.tail == Tail::Rational && !random.once_in(40) {
         config.cut = Cut::Epicentre;

@@ -1,6 +1,7 @@
 //! Shared helpers of the integration tests.
 
 pub mod answers;
+pub mod bench;
 pub mod cli;
 pub mod comparison;
 pub mod configurations;

@@ -190,6 +190,11 @@ pub struct Naive<'a> {
     rows: &'a [Row],
 }
 
+/// c0 to c3 of the first segment, and of the second.
+const FIRST: [FieldName; 4] = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
+const SECOND: [FieldName; 4] =
+    [FieldName::C0Outer, FieldName::C1Outer, FieldName::C2Outer, FieldName::C3Outer];
+
 impl<'a> Naive<'a> {
     /// Takes the data of a design.
     #[must_use]
@@ -222,7 +227,10 @@ impl<'a> Naive<'a> {
             Form::Centred => power_of_two(self.formats.input.fraction_bits()),
         };
         let polynomial_x = if region == "polynomial" { &clamped } else { &harmless };
-        let lines = self.lines(&row, polynomial_x);
+        let second = region == "polynomial"
+            && self.config.segments == 2
+            && BigInt::from(row.get(FieldName::HandOver)) > *polynomial_x;
+        let lines = self.lines(&row, polynomial_x, second);
         let tail_x = if region == "tail" { clamped } else { BigInt::ZERO };
         let divisor = self.divisor(&row, &tail_x);
 
@@ -254,16 +262,24 @@ impl<'a> Naive<'a> {
     }
 
     /// Power form: t1 = c2 + c3·x, t2 = c1 + t1·x, t3 = c0 + t2·x. Centred form: the same with minus,
-    /// and u = (1 − x)·2^e for x. Every register is rounded once.
-    fn lines(&self, row: &Row, x: &BigInt) -> Option<Lines> {
+    /// and u = (1 − x)·2^e for x; in the second of two segments (hand_over − x)·2^e, with coefficients and e of
+    /// its own. Every register is rounded once.
+    fn lines(&self, row: &Row, x: &BigInt, second: bool) -> Option<Lines> {
         let formats = self.formats.polynomial.as_ref()?;
         let mode = self.config.rounding;
-        let x = Exact::of_bits(x.clone(), self.formats.input.fraction_bits());
+        let input = self.formats.input.fraction_bits();
+        let x = Exact::of_bits(x.clone(), input);
+        let (start, shift, names) = if second {
+            let start = Exact::of_bits(row.get(FieldName::HandOver), input);
+            (start, FieldName::ShiftOuter, SECOND)
+        } else {
+            (Exact::of_bits(1, 0), FieldName::Shift, FIRST)
+        };
         let v = match self.config.form {
             Form::Power => x,
             Form::Centred => {
-                let shift = u32::try_from(row.get(FieldName::Shift)).expect("a shift is a count");
-                (Exact::of_bits(1, 0) - x) * Exact::of_bits(power_of_two(shift), 0)
+                let shift = u32::try_from(row.get(shift)).expect("a shift is a count");
+                (start - x) * Exact::of_bits(power_of_two(shift), 0)
             }
         };
         let step = |multiplicand: &Exact, v: &Exact, addend: Exact, fraction| {
@@ -278,13 +294,11 @@ impl<'a> Naive<'a> {
         let coefficient = |name, fraction| Exact::of_bits(row.get(name), fraction);
 
         let (v_bits, v) = register(&v, formats.v.fraction_bits(), mode);
-        let c3 = coefficient(FieldName::C3, c3);
-        let (t1_bits, t1) =
-            step(&c3, &v, coefficient(FieldName::C2, c2), formats.t1.fraction_bits());
-        let (t2_bits, t2) =
-            step(&t1, &v, coefficient(FieldName::C1, c1), formats.t2.fraction_bits());
+        let c3 = coefficient(names[3], c3);
+        let (t1_bits, t1) = step(&c3, &v, coefficient(names[2], c2), formats.t1.fraction_bits());
+        let (t2_bits, t2) = step(&t1, &v, coefficient(names[1], c1), formats.t2.fraction_bits());
         let (t3_bits, _) =
-            step(&t2, &v, coefficient(FieldName::C0, c0), self.formats.output.fraction_bits());
+            step(&t2, &v, coefficient(names[0], c0), self.formats.output.fraction_bits());
         Some(Lines { v: v_bits, t1: t1_bits, t2: t2_bits, t3: t3_bits })
     }
 

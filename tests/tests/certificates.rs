@@ -49,9 +49,11 @@ proptest! {
     /// The mean value theorem: f(b) − f(a) is a slope of the box times b − a, for both variables.
     #[test]
     fn slopes_hold_differences(
-        which in 0_usize..7, h in 0.0_f64..0.9, sigma in 0.0_f64..3.0, dh in 1e-6_f64..0.1, ds in 1e-6_f64..0.5,
+        which in 0_usize..8, h in 0.0_f64..0.9, sigma in 0.0_f64..3.0, dh in 1e-6_f64..0.1, ds in 1e-6_f64..0.5,
     ) {
         let method = Method::ALL[which];
+        // `minimax` has no formula in h.
+        prop_assume!(method != Method::Minimax);
         let logs = Logs::new(Levels::default());
         let region = *Region::of(method).last().unwrap();
         let exactly = Interval::exactly;
@@ -72,7 +74,7 @@ proptest! {
 
     /// The maxima that the report measures lie within, but for its noise.
     #[test]
-    fn enclosures_hold_the_measured_maxima(which in 0_usize..7, n in exponents(), levels in levels()) {
+    fn enclosures_hold_the_measured_maxima(which in 0_usize..8, n in exponents(), levels in levels()) {
         let method = Method::ALL[which];
         let fitted = fit(method, n, levels).unwrap();
         for &region in Region::of(method) {
@@ -114,10 +116,10 @@ fn integer_exponents_are_enclosed_to_a_millionth() {
             }
         }
     }
-    assert_eq!(enclosures, 15 * 70 - 31);
+    assert_eq!(enclosures, 17 * 70 - 37);
     let certificate = Certificate::new(Claim::Exponents(Claims { levels, claims }));
     let checked = check(&certificate, &certificate.to_json(), &AtomicU64::new(0)).unwrap();
-    assert_eq!(checked.enclosures, 15 * 70);
+    assert_eq!(checked.enclosures, 17 * 70);
 }
 
 /// Twenty digits, from arithmetic with sixty.

@@ -28,15 +28,19 @@ fn nearest_up(value: I64F64, fraction: u32) -> I64F64 {
     raised - raised.rem_euclid(place)
 }
 
+/// c0 to c3 of the first segment, and of the second.
+const FIRST: [FieldName; 4] = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
+const SECOND: [FieldName; 4] =
+    [FieldName::C0Outer, FieldName::C1Outer, FieldName::C2Outer, FieldName::C3Outer];
+
 /// t1, t2, t3 of one x, through the stages of the form.
 fn stages(
     form: Form,
     formats: &PolynomialFormats,
-    row: &Row,
+    (row, names): (&Row, [FieldName; 4]),
     v: I64F64,
     output: QFormat,
 ) -> [I64F64; 3] {
-    let names = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
     let [c0, c1, c2, c3] =
         std::array::from_fn(|power| exact(row.get(names[power]), formats.coefficients[power]));
     let line = |multiplicand: I64F64, addend: I64F64, fraction: u32| {
@@ -61,12 +65,18 @@ fn the_polynomial_of_every_preset_agrees_with_compile_time_types() {
             let cut = row.get(FieldName::Cut);
             for step in 0..=STEPS {
                 let x = cut + (one - cut) * step / STEPS;
-                let s = exact(one - x, config.input);
+                let second = x < row.get(FieldName::HandOver);
+                let (start, shift, names) = if second {
+                    (row.get(FieldName::HandOver), FieldName::ShiftOuter, SECOND)
+                } else {
+                    (one, FieldName::Shift, FIRST)
+                };
+                let s = exact(start - x, config.input);
                 let v = match config.form {
                     Form::Power => exact(x, config.input),
-                    Form::Centred => nearest_up(s << row.shift(), formats.v.fraction_bits()),
+                    Form::Centred => nearest_up(s << row.get(shift), formats.v.fraction_bits()),
                 };
-                let [t1, t2, t3] = stages(config.form, formats, row, v, config.output);
+                let [t1, t2, t3] = stages(config.form, formats, (row, names), v, config.output);
                 let got = datapath.evaluate(address as u32, x);
                 let intensity = t3.clamp(I64F64::ZERO, I64F64::ONE);
                 assert_eq!(got.region, Region::Polynomial);
@@ -83,5 +93,5 @@ fn the_polynomial_of_every_preset_agrees_with_compile_time_types() {
             }
         }
     }
-    assert_eq!(compared, 4 * 256 * (STEPS + 1));
+    assert_eq!(compared, 5 * 256 * (STEPS + 1));
 }

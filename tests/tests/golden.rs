@@ -46,7 +46,7 @@ fn the_golden_files_are_what_their_commands_make() {
         bench.write(name, fs::read(directory().join(name)).expect("a source"));
     }
     let commands = commands();
-    assert_eq!(commands.len(), 5, "commands in the README");
+    assert_eq!(commands.len(), 6, "commands in the README");
     for Command { arguments, redirected } in commands {
         let printed = bench.good(&arguments);
         if let Some(file) = redirected {

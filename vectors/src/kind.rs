@@ -19,6 +19,10 @@ pub enum Kind {
     Cut,
     /// One ulp below or above the cut.
     BesideCut,
+    /// The least x at which the first of two segments answers.
+    HandOver,
+    /// One ulp below or above it.
+    BesideHandOver,
     /// q, where x^n = Q, or one ulp beside it.
     Q,
     /// The greatest |intensity − x^n| found where the polynomial answers.
@@ -57,6 +61,8 @@ impl fmt::Display for Kind {
             Self::BesideZero => "beside_zero",
             Self::Cut => "cut",
             Self::BesideCut => "beside_cut",
+            Self::HandOver => "hand_over",
+            Self::BesideHandOver => "beside_hand_over",
             Self::Q => "q",
             Self::WorstPolynomial => "worst_polynomial",
             Self::WorstTail => "worst_tail",

@@ -101,7 +101,7 @@ fn a_row_cannot_do_with_fewer() {
         let (xs, mut masks) =
             ((input.min_bits()..=input.max_bits()).collect::<Vec<i64>>(), Vec::new());
         row.killed(&xs, row.all(), &mut masks);
-        let sorts: BTreeSet<u16> = masks.into_iter().filter(|&mask| mask != 0).collect();
+        let sorts: BTreeSet<u32> = masks.into_iter().filter(|&mask| mask != 0).collect();
         let all = sorts.iter().fold(0, |set, mask| set | mask);
         // Sets that can be had with one x, with two, …
         let mut reached = BTreeSet::from([0]);

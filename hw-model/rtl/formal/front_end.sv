@@ -16,11 +16,15 @@ module front_end_proof #(
   logic [blysk_pkg::ROM_WIDTH-1:0]   words[0:blysk_pkg::ROM_DEPTH-1];
   logic [blysk_pkg::CUT_WIDTH-1:0]   cut;
   logic [blysk_pkg::SHIFT_WIDTH-1:0] shift;
+  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over;
+  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer;
   initial $readmemh(ROM_FILE, words);
 
   blysk_fields fields (
     .word_i(words[row_i]), .cut_o(cut), .shift_o(shift),
-    .c3_o(), .c2_o(), .c1_o(), .c0_o(), .tail_a_o(), .tail_b_o()
+    .c3_o(), .c2_o(), .c1_o(), .c0_o(), .tail_a_o(), .tail_b_o(),
+    .c3_outer_o(), .c2_outer_o(), .c1_outer_o(), .c0_outer_o(),
+    .hand_over_o(hand_over), .shift_outer_o(shift_outer)
   );
 
   // ---- The front end ------------------------------------------------------------------------------
@@ -28,34 +32,39 @@ module front_end_proof #(
   logic [blysk_pkg::V_WIDTH-1:0]      v;
   logic [blysk_pkg::X_WIDTH-1:0]      tail_x;
   logic [blysk_pkg::REGION_WIDTH-1:0] region;
+  logic                               outer;
   assign fetch_status = blysk_pkg::STATUS_WIDTH'(no_word_i) << blysk_pkg::STATUS_NO_WORD;
 
   blysk_front_end front_end (
     .clk_i, .load_i, .x_i, .status_i(fetch_status), .cut_i(cut), .shift_i(shift),
+    .hand_over_i(hand_over), .shift_outer_i(shift_outer), .outer_o(outer),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 
   // ---- The same on paper --------------------------------------------------------------------------
-  localparam int SHIFTED = 1 << blysk_pkg::SHIFT_WIDTH;
+  localparam int SHIFTED = 1 << (blysk_pkg::SHIFT_COMMON_WIDTH - 1);
   localparam int WIDE    = blysk_pkg::INPUT_WIDTH + blysk_pkg::U_UP + SHIFTED + 6;
   localparam logic signed [WIDE-1:0] ONE = 1;
   localparam logic signed [WIDE-1:0] X_ONE = ONE <<< blysk_pkg::INPUT_FRACTION;
   localparam logic signed [WIDE-1:0] X_GREATEST = WIDE'(blysk_pkg::X_GREATEST);
 
   logic signed [WIDE-1:0] port, x, s, u, exact, variable;
-  logic                   polynomial;
+  logic                   polynomial, second;
+  logic [blysk_pkg::SHIFT_COMMON_WIDTH-1:0] places;
   always_comb begin
     port       = blysk_pkg::INPUT_SIGNED != 0 ? WIDE'($signed(x_i)) : WIDE'(x_i);
     x          = port < 0 ? '0 : port > X_GREATEST ? X_GREATEST : port;
     polynomial = blysk_pkg::HAS_POLYNOMIAL != 0 && !no_word_i && port >= 0 && x >= WIDE'(cut);
-    s          = polynomial ? X_ONE - x : '0;
+    second     = blysk_pkg::SEGMENTS > 1 && polynomial && x < WIDE'(hand_over);
+    s          = !polynomial ? '0 : second ? WIDE'(hand_over) - x : X_ONE - x;
+    places     = second ? blysk_pkg::SHIFT_COMMON_WIDTH'(shift_outer) : blysk_pkg::SHIFT_COMMON_WIDTH'(shift);
   end
 
   multiply_add #(
     .MULTIPLICAND_WIDTH(blysk_pkg::INPUT_WIDTH), .VARIABLE_WIDTH(SHIFTED), .SUBTRACT(0),
     .PRODUCT_UP(blysk_pkg::U_UP), .DROP(blysk_pkg::U_DROP), .ROUNDING(blysk_pkg::U_ROUNDING), .WIDE(WIDE)
   ) line (
-    .multiplicand_i(blysk_pkg::INPUT_WIDTH'(s)), .variable_i(SHIFTED'(1) << shift), .addend_i(1'b0),
+    .multiplicand_i(blysk_pkg::INPUT_WIDTH'(s)), .variable_i(SHIFTED'(1) << places), .addend_i(1'b0),
     .exact_o(exact), .rounded_o(u)
   );
 
@@ -80,6 +89,7 @@ module front_end_proof #(
 
   always_comb begin
     if (load_i) assume (row_i < blysk_pkg::ROM_DEPTH);
+    right_segment: assert (outer == second);
     if (loaded) begin
       variable_fits: assert (WIDE'(v) == was_variable);
       right_region:  assert (region == (was_polynomial ? blysk_pkg::REGION_POLYNOMIAL

@@ -52,14 +52,14 @@
     logic [LAST*V-1:0]      vs;
     logic [(LAST-1)*T1-1:0] t1s;
     logic [(LAST-2)*T2-1:0] t2s;
-    trail #(.WIDTH(C3), .RANKS(LAST), .STORED(blysk_pkg::C3_STORED)) c3_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(c3), .trail_o(c3s));
-    trail #(.WIDTH(C2), .RANKS(LAST), .STORED(blysk_pkg::C2_STORED)) c2_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(c2), .trail_o(c2s));
-    trail #(.WIDTH(C1), .RANKS(LAST), .STORED(blysk_pkg::C1_STORED)) c1_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(c1), .trail_o(c1s));
-    trail #(.WIDTH(C0), .RANKS(LAST), .STORED(blysk_pkg::C0_STORED)) c0_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(c0), .trail_o(c0s));
+    trail #(.WIDTH(C3), .RANKS(LAST), .STORED(blysk_pkg::C3_CARRIED)) c3_trail (
+      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c3_chosen), .trail_o(c3s));
+    trail #(.WIDTH(C2), .RANKS(LAST), .STORED(blysk_pkg::C2_CARRIED)) c2_trail (
+      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c2_chosen), .trail_o(c2s));
+    trail #(.WIDTH(C1), .RANKS(LAST), .STORED(blysk_pkg::C1_CARRIED)) c1_trail (
+      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c1_chosen), .trail_o(c1s));
+    trail #(.WIDTH(C0), .RANKS(LAST), .STORED(blysk_pkg::C0_CARRIED)) c0_trail (
+      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c0_chosen), .trail_o(c0s));
     trail #(.WIDTH(V), .RANKS(LAST - 1)) v_trail (
       .clk_i, .load_i(load[LAST:2]), .value_i(v), .trail_o(vs));
     trail #(.WIDTH(T1), .RANKS(LAST - 2)) t1_trail (

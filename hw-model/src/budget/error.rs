@@ -116,11 +116,7 @@ impl Sensitivity {
         let variable = self.shown(error);
         // The lines see the rounded variable, which may lie outside the region by its error.
         let v = self.row.v.1 + error;
-        let coefficient = [c0, c1, c2, c3]
-            .iter()
-            .zip(self.row.coefficients)
-            .rev()
-            .fold(0.0, |sum, (&fraction, value)| sum * v + coefficient_error(value, fraction));
+        let coefficient = self.coefficient_bound([c0, c1, c2, c3], v, surroundings);
         let rounding = surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v
             + surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v
             + surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0));
@@ -138,18 +134,45 @@ impl Sensitivity {
         let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
         let error = self.variable_error(v_bits, surroundings);
         let v = self.row.v.1 + error;
-        let [k0, k1, k2, k3] = self.row.coefficients;
+        let [e0, e1, e2, e3] = self.moved([c0, c1, c2, c3]);
         let shares = [
             self.shown(error),
-            coefficient_error(k3, c3) * v * v * v,
-            coefficient_error(k2, c2) * v * v,
-            coefficient_error(k1, c1) * v,
-            coefficient_error(k0, c0),
+            e3 * v * v * v,
+            e2 * v * v,
+            e1 * v,
+            e0,
             surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v,
             surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v,
             surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0)),
         ];
         shares.map(|share| share * f64::from(surroundings.output).exp2())
+    }
+
+    /// How far the polynomial with the ROM's integers may be from the real one, for variables up to `v`.
+    fn coefficient_bound(&self, fractions: [u32; 4], v: f64, surroundings: &Surroundings) -> f64 {
+        let apart = self.moved(fractions).iter().rev().fold(0.0, |sum, error| sum * v + error);
+        if self.row.steps == [0; 4] {
+            return apart;
+        }
+        // Steps make up for each other, so that their sum says little: the difference of the polynomials is one
+        // of degree 3, whose greatest magnitude is known. Real coefficients may be a place of 53 off.
+        let difference: [f64; 4] = std::array::from_fn(|power| {
+            let (value, scale) = (self.row.coefficients[power], f64::from(fractions[power]).exp2());
+            let rounded = (value * scale).round_ties_even() + f64::from(self.row.steps[power]);
+            rounded / scale - value
+        });
+        let slack: f64 = self.row.coefficients.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
+        let terms = horner(&difference, surroundings.centred);
+        (magnitude(&terms, (self.row.v.0, v)) + 4.0 * slack * f64::EPSILON).min(apart)
+    }
+
+    /// How far the ROM's c0, c1, c2, c3 of these fraction bits may be from the real ones.
+    fn moved(&self, fractions: [u32; 4]) -> [f64; 4] {
+        std::array::from_fn(|power| {
+            let steps = f64::from(self.row.steps[power].unsigned_abs());
+            let step = steps * (-f64::from(fractions[power])).exp2();
+            coefficient_error(self.row.coefficients[power], fractions[power]) + step
+        })
     }
 
     /// The greatest error of the variable by its rounding.

@@ -11,7 +11,9 @@
 //! V = max v and S = max |f′(v)| on the row's region, the parts add up to
 //!
 //! ```text
-//! coefficients   δ3·V³ + δ2·V² + δ1·V + δ0        (δ = ½ ulp of each, 0 where the row is exact)
+//! coefficients   δ3·V³ + δ2·V² + δ1·V + δ0        (δ = ½ ulp of each, 0 where the row is exact;
+//!                                                  where it is moved by steps, the greatest
+//!                                                  difference of the two polynomials)
 //! data path      S·δv  + ρ1·V² + ρ2·V + ρ3        (ρ = ½ or 1 ulp by the mode, 0 where exact)
 //! ```
 //!
@@ -43,6 +45,8 @@ pub struct RowPolynomial {
     pub shift: u32,
     /// c0, c1, c2, c3 of t1 = c2 ± c3·v, t2 = c1 ± t1·v, t3 = c0 ± t2·v.
     pub coefficients: [f64; 4],
+    /// The units of their last places by which the integers of c0, c1, c2, c3 are moved beyond rounding.
+    pub steps: [i32; 4],
     /// The least and the greatest v the polynomial is given.
     pub v: (f64, f64),
     /// False where the cut lies above every x of the input format (UQ0.n and a large n): the polynomial

@@ -65,15 +65,15 @@ impl Datapath {
     }
 }
 
-/// The block in the narrow lane, compiled once for each vector width named here; the machine's own is
-/// chosen at run time. Integers give the same bits in all of them.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+/// The block in the narrow lane, compiled once for each vector width named here; the first that the
+/// machine has is chosen at run time. Integers give the same bits in all of them.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
     Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &Registers::WHOLE);
 }
 
 /// The same with trimmed registers.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn narrow_row(
     datapath: &Datapath,
     row: &Row,
@@ -85,17 +85,46 @@ fn narrow_row(
     Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &registers);
 }
 
-/// The lines of a data path, out of their ranks.
+/// What one segment brings to the polynomial.
 #[derive(Clone, Copy)]
-struct Lines {
-    front_end: FrontEnd,
-    stages: Option<[MultiplyAdd; 3]>,
-    divider: Option<Divider>,
-    output_one: i64,
+pub(super) struct Segment<L> {
+    pub(super) start: L,
+    pub(super) shift: u32,
+    /// c0 to c3.
+    pub(super) c: [L; 4],
+}
+
+impl<L: Lane> Segment<L> {
+    /// The first, which counts from 1.
+    #[inline(always)]
+    pub(super) fn first(row: &Row, one: L) -> Self {
+        Self::of(row, FieldName::COEFFICIENTS, one, row.shift())
+    }
+
+    /// The second, which counts from where the first hands over.
+    #[inline(always)]
+    pub(super) fn outer(row: &Row) -> Self {
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        Self::of(row, FieldName::OUTER_COEFFICIENTS, hand_over, row.shift_outer())
+    }
+
+    #[inline(always)]
+    fn of(row: &Row, names: [FieldName; 4], start: L, shift: u32) -> Self {
+        Self { start, shift, c: names.map(|name| L::from_bits(row.get(name))) }
+    }
+}
+
+/// The lines of a data path, out of their ranks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lines {
+    pub(super) front_end: FrontEnd,
+    pub(super) stages: Option<[MultiplyAdd; 3]>,
+    pub(super) divider: Option<Divider>,
+    pub(super) output_one: i64,
 }
 
 impl Lines {
-    fn of(datapath: &Datapath) -> Self {
+    pub(super) fn of(datapath: &Datapath) -> Self {
         Self {
             front_end: datapath.front_end,
             stages: datapath.stages,
@@ -106,7 +135,7 @@ impl Lines {
 
     /// The same lines, with a mode that the compiler knows: it leaves no choice in the loops.
     #[inline(always)]
-    fn rounded_by(self, mode: Rounding) -> Self {
+    pub(super) fn rounded_by(self, mode: Rounding) -> Self {
         Self {
             front_end: self.front_end.rounded_by(mode),
             stages: self.stages.map(|stages| stages.map(|stage| stage.rounded_by(mode))),
@@ -135,7 +164,7 @@ impl Lines {
     }
 
     /// The mode of every line, where they have one in common.
-    fn rounding(&self) -> Option<Rounding> {
+    pub(super) fn rounding(&self) -> Option<Rounding> {
         let front_end = self.front_end.rounding();
         let stages = self.stages.iter().flatten().map(MultiplyAdd::rounding);
         let divider = self.divider.iter().flat_map(|d| [d.rounding, d.divisor.rounding()]);
@@ -193,12 +222,15 @@ impl Lines {
         let Some([stage1, stage2, stage3]) = &self.stages else {
             return;
         };
-        let [c3, c2, c1, c0] = [FieldName::C3, FieldName::C2, FieldName::C1, FieldName::C0]
-            .map(|name| L::from_bits(row.get(name)));
-        let (one, shift) = (L::from_bits(self.output_one), row.shift());
+        let one = L::from_bits(self.output_one);
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let first = Segment::first(row, L::from_bits(self.front_end.one));
+        let second = Segment::outer(row);
         for ((&x, &region), intensity) in xs.iter().zip(regions).zip(intensities) {
             let x = self.front_end.clamp_input(L::from_bits(x));
-            let v = keep.v.keep(self.front_end.variable(x, region, shift));
+            let outer = self.front_end.is_outer(x, region, hand_over);
+            let Segment { start, shift, c: [c0, c1, c2, c3] } = if outer { second } else { first };
+            let v = keep.v.keep(self.front_end.variable(x, region, start, shift));
             let t1 = keep.t[0].keep(stage1.apply(c3, v, c2));
             let t2 = keep.t[1].keep(stage2.apply(t1, v, c1));
             let t3 = keep.t[2].keep(stage3.apply(t2, v, c0));

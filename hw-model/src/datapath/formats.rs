@@ -43,6 +43,10 @@ pub struct Formats {
     pub tail: Option<TailFormats>,
     /// The cut, where there is a polynomial.
     pub cut: Option<QFormat>,
-    /// e, in the centred form.
+    /// The shift count, in the centred form.
     pub shift: Option<QFormat>,
+    /// Where the first segment hands over, where there is a second.
+    pub hand_over: Option<QFormat>,
+    /// The shift count of the second segment.
+    pub shift_outer: Option<QFormat>,
 }

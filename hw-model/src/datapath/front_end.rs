@@ -8,12 +8,16 @@
 //! | `tail`       | 0 ≤ x < cut, configuration keeps a divider  | the divider           |
 //! | `zero`       | 0 ≤ x < cut without one; x < 0; no ROM word | 0                     |
 //!
+//! With two segments, the second answers from `cut` up to `hand_over`: it has coefficients and a shift of its
+//! own, and v = (hand_over − x)·2^shift counts from where the first one hands over. From the front
+//! end on its coefficients stand in the places of the first's.
+//!
 //! A part that does not answer is fed a harmless x, so that what was proved about the ranges of its
 //! registers holds for every input: the polynomial gets u = 0, or x = 1 (the greatest x, where the format
 //! does not reach 1), which the ranges of every row include, and the divider x = 0.
 //!
-//! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1;
-//! it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
+//! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1 (with
+//! fitted shifts below 1 in both segments); it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
 
 use crate::rounding::{Lane, Rounding, round_shift};
 
@@ -48,6 +52,8 @@ pub enum Variable {
     /// v = x: the power form.
     X,
     /// v = u = (1 − x)·2^e: the centred form.
+    ///
+    /// In the second segment (hand_over − x)·2^shift.
     U {
         /// Places s is moved up, beyond e, to meet u's fraction bits.
         up: u32,
@@ -92,6 +98,29 @@ impl FrontEnd {
         Self { variable, ..self }
     }
 
+    /// True where the variable is u with bits dropped, or for the power form x.
+    #[must_use]
+    pub const fn is_plain(&self, centred: bool) -> bool {
+        match self.variable {
+            Some(Variable::U { drop, .. }) => centred && drop > 0,
+            Some(Variable::X) => !centred,
+            None => true,
+        }
+    }
+
+    /// The same plain front end, u rounded by `mode`, with all that the compiler may know of it: it leaves no
+    /// choice in a loop.
+    #[inline(always)]
+    #[must_use]
+    pub const fn known_plain(self, centred: bool, mode: Rounding) -> Self {
+        let (up, drop) = match self.variable {
+            Some(Variable::U { up, drop, .. }) if drop > 0 => (up, drop),
+            _ => (0, 1),
+        };
+        let variable = if centred { Variable::U { up, drop, rounding: mode } } else { Variable::X };
+        Self { variable: Some(variable), ..self }
+    }
+
     /// x clamped to [0, 1].
     #[inline(always)]
     pub fn clamp_input<L: Lane>(&self, x: L) -> L {
@@ -112,10 +141,17 @@ impl FrontEnd {
         }
     }
 
-    /// The polynomial's variable for a clamped x: x itself, or u = (1 − x)·2^shift. Where the
-    /// polynomial does not answer, the greatest x, or u = 0.
+    /// Whether the second segment answers for a clamped x; never with a row of one segment, whose
+    /// hand-over is 0.
     #[inline(always)]
-    pub fn variable<L: Lane>(&self, x: L, region: Region, shift: u32) -> L {
+    pub fn is_outer<L: Lane>(&self, x: L, region: Region, hand_over: L) -> bool {
+        region == Region::Polynomial && x < hand_over
+    }
+
+    /// The polynomial's variable for a clamped x: x itself, or u = (start − x)·2^shift, where start is 1 or
+    /// the second segment's. Where the polynomial does not answer, the greatest x, or u = 0.
+    #[inline(always)]
+    pub fn variable<L: Lane>(&self, x: L, region: Region, start: L, shift: u32) -> L {
         let answers = region == Region::Polynomial;
         match self.variable {
             None => L::ZERO,
@@ -127,7 +163,7 @@ impl FrontEnd {
                 }
             }
             Some(Variable::U { up, drop, rounding }) => {
-                let s = if answers { L::from_bits(self.one) - x } else { L::ZERO };
+                let s = if answers { start - x } else { L::ZERO };
                 round_shift(s << (shift + up), drop, rounding)
             }
         }

@@ -16,16 +16,22 @@
 mod altered;
 mod block;
 pub mod clamp;
+mod flight;
 pub mod formats;
 pub mod front_end;
 mod keep;
+mod lanes;
 pub mod ranks;
 pub mod reach;
+mod requests;
+mod run;
 pub mod signals;
 pub mod stage;
 pub mod tail;
 
 pub use block::Block;
+pub use flight::{Flight, Logic, Slots};
 pub use keep::Damage;
 pub use ranks::{Datapath, register_name};
+pub use requests::{REQUESTS, Requests};
 pub use signals::{Register, Signals, Status};

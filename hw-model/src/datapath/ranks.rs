@@ -20,7 +20,7 @@ use super::formats::{Formats, PolynomialFormats, TailFormats};
 use super::front_end::{FrontEnd, Region};
 use super::signals::{Register, Signals, Status};
 use super::stage::MultiplyAdd;
-use super::tail::{Divider, Division};
+use super::tail::Divider;
 
 /// Ranks before the middle: fetch and front end.
 const HEAD_RANKS: usize = 2;
@@ -167,14 +167,23 @@ impl Datapath {
         } else {
             self.front_end.region(given, L::from_bits(before.row.get(FieldName::Cut)))
         };
+        let row = &before.row;
+        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let outer = self.front_end.is_outer(x, region, hand_over);
+        let (start, shift, row) = if outer {
+            (hand_over, row.shift_outer(), row.in_outer())
+        } else {
+            (L::from_bits(self.front_end.one), row.shift(), *row)
+        };
         Signals {
             x: x.to_bits(),
             region,
+            row,
             status: before
                 .status
                 .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
                 .with(Status::FACING_AWAY, given < L::ZERO),
-            v: self.front_end.variable(x, region, before.row.shift()).to_bits(),
+            v: self.front_end.variable(x, region, start, shift).to_bits(),
             tail_x: self.front_end.tail_x(x, region).to_bits(),
             ..*before
         }
@@ -209,9 +218,9 @@ impl Datapath {
             let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
             divider.begin(L::from_bits(signals.tail_x), L::from_bits(a), L::from_bits(b))
         } else {
-            divider.digit_stage(index as u32 - 1, widen::<L>(signals.division))
+            divider.digit_stage(index as u32 - 1, signals.division.widened::<L>())
         };
-        signals.division = narrow(division);
+        signals.division = division.narrowed();
     }
 
     #[inline]
@@ -228,7 +237,7 @@ impl Datapath {
             // A tail answers only where there is a divider.
             Region::Tail => self
                 .divider
-                .map_or(0, |divider| divider.finish(widen::<L>(before.division), one).to_bits()),
+                .map_or(0, |divider| divider.finish(before.division.widened::<L>(), one).to_bits()),
         };
         after
     }
@@ -280,21 +289,28 @@ impl Datapath {
             list.add("x", self.formats.input, true, |s| s.x);
             self.field(list, FieldName::Cut, true, |s| s.row.get(FieldName::Cut));
             self.field(list, FieldName::Shift, true, |s| s.row.get(FieldName::Shift));
+            self.field(list, FieldName::HandOver, true, |s| s.row.get(FieldName::HandOver));
+            self.field(list, FieldName::ShiftOuter, true, |s| s.row.get(FieldName::ShiftOuter));
         }
     }
 
     fn polynomial_registers(&self, rank: usize, formats: &PolynomialFormats, list: &mut List) {
-        let computed = rank == 0;
         // c3 and c2 meet in stage 1, c1 in stage 2, c0 in stage 3.
         if rank < HEAD_RANKS {
-            self.field(list, FieldName::C3, computed, |s| s.row.get(FieldName::C3));
-            self.field(list, FieldName::C2, computed, |s| s.row.get(FieldName::C2));
+            self.coefficient(list, rank, FieldName::C3, |s| s.row.get(FieldName::C3));
+            self.coefficient(list, rank, FieldName::C2, |s| s.row.get(FieldName::C2));
         }
         if rank < HEAD_RANKS + 1 {
-            self.field(list, FieldName::C1, computed, |s| s.row.get(FieldName::C1));
+            self.coefficient(list, rank, FieldName::C1, |s| s.row.get(FieldName::C1));
         }
         if rank < HEAD_RANKS + 2 {
-            self.field(list, FieldName::C0, computed, |s| s.row.get(FieldName::C0));
+            self.coefficient(list, rank, FieldName::C0, |s| s.row.get(FieldName::C0));
+        }
+        if rank == 0 {
+            self.field(list, FieldName::C3Outer, true, |s| s.row.get(FieldName::C3Outer));
+            self.field(list, FieldName::C2Outer, true, |s| s.row.get(FieldName::C2Outer));
+            self.field(list, FieldName::C1Outer, true, |s| s.row.get(FieldName::C1Outer));
+            self.field(list, FieldName::C0Outer, true, |s| s.row.get(FieldName::C0Outer));
         }
         match rank {
             0 => {}
@@ -347,11 +363,60 @@ impl Datapath {
         }
     }
 
+    /// A coefficient of the first segment in rank 0, that of the answering segment from rank 1 on.
+    fn coefficient(
+        &self,
+        list: &mut List,
+        rank: usize,
+        name: FieldName,
+        bits: fn(&Signals) -> i64,
+    ) {
+        if rank == 0 {
+            self.field(list, name, true, bits);
+        } else if self.is_carried(name)
+            && let Some(field) = self.rom.layout().field(name)
+        {
+            list.add(name.name(), field.format, rank == 1 && self.has_two_segments(), bits);
+        }
+    }
+
+    /// True where the polynomial has a second segment.
+    #[must_use]
+    pub const fn has_two_segments(&self) -> bool {
+        self.formats.hand_over.is_some()
+    }
+
+    /// True where a coefficient takes a register behind the front end: it is not the same constant in
+    /// every row and segment.
+    #[must_use]
+    pub fn is_carried(&self, name: FieldName) -> bool {
+        let place = |name| self.rom.layout().field(name).map(|field| field.place);
+        let outer = FieldName::COEFFICIENTS
+            .into_iter()
+            .zip(FieldName::OUTER_COEFFICIENTS)
+            .find(|&(inner, _)| inner == name)
+            .and_then(|(_, outer)| place(outer));
+        match (place(name), outer) {
+            (Some(Place::Constant { .. }) | None, None) => false,
+            (Some(Place::Constant { bits }), Some(Place::Constant { bits: outer })) => {
+                bits != outer
+            }
+            _ => true,
+        }
+    }
+
     /// The row at an address. An address without a word reads the first row: its values are in every
     /// proved range, and a memory needs no gates behind its outputs. The region makes the intensity 0.
     #[must_use]
     pub fn row(&self, address: u32) -> Row {
-        self.rom.row(address).or_else(|| self.rom.row(0)).copied().unwrap_or_default()
+        *self.row_at(if self.rom.row(address).is_some() { address } else { 0 })
+    }
+
+    /// The row at an address that has one.
+    #[inline(always)]
+    pub(super) fn row_at(&self, address: u32) -> &Row {
+        const NONE: &Row = &Row::EMPTY;
+        self.rom.row(address).unwrap_or(NONE)
     }
 }
 
@@ -368,21 +433,5 @@ impl List {
         bits: fn(&Signals) -> i64,
     ) {
         self.registers.push(Register { name, format, computed, bits });
-    }
-}
-
-fn widen<L: Lane>(division: Division<i64>) -> Division<L> {
-    Division {
-        divisor: L::from_bits(division.divisor),
-        remainder: L::from_bits(division.remainder),
-        digits: L::from_bits(division.digits),
-    }
-}
-
-fn narrow<L: Lane>(division: Division<L>) -> Division<i64> {
-    Division {
-        divisor: division.divisor.to_bits(),
-        remainder: division.remainder.to_bits(),
-        digits: division.digits.to_bits(),
     }
 }

@@ -96,8 +96,7 @@ impl Datapath {
         };
         for address in 0..self.rom.depth() as u32 {
             look(&mut best, address, None);
-            let (first, last) = self.polynomial_span(&self.row(address));
-            if first <= last {
+            for (first, last) in self.polynomial_spans(&self.row(address)) {
                 look(&mut best, address, Some(first));
                 look(&mut best, address, Some(last));
                 open.push((address, first, last));
@@ -115,21 +114,32 @@ impl Datapath {
         best.map(|(_, extreme)| extreme)
     }
 
-    /// The first and the last x at which the polynomial of a row answers.
-    fn polynomial_span(&self, row: &Row) -> (i64, i64) {
-        (row.get(FieldName::Cut).max(0), self.front_end.greatest)
+    /// The first and the last x at which each segment of a row answers; only of those that do.
+    fn polynomial_spans(&self, row: &Row) -> impl Iterator<Item = (i64, i64)> {
+        let (cut, greatest) = (row.get(FieldName::Cut).max(0), self.front_end.greatest);
+        let hand_over = row.get(FieldName::HandOver);
+        let spans = [(cut, (hand_over - 1).min(greatest)), (cut.max(hand_over), greatest)];
+        spans.into_iter().filter(|(first, last)| first <= last)
     }
 
-    /// What the polynomial is given for x from `first` to `last`, and what its lines make of it.
+    /// What the polynomial is given for x from `first` to `last`, both of one segment, and what its lines
+    /// make of it.
     fn lines<L: Lane>(&self, row: &Row, first: i64, last: i64) -> Lines<L> {
+        let outer = first < row.get(FieldName::HandOver);
+        let (start, shift, row) = if outer {
+            (row.get(FieldName::HandOver), row.shift_outer(), row.in_outer())
+        } else {
+            (self.front_end.one, row.shift(), *row)
+        };
+        let start = L::from_bits(start);
         let variable =
-            |x| self.front_end.variable(L::from_bits(x), Region::Polynomial, row.shift());
-        self.of_variable(row, ordered(variable(first), variable(last)))
+            |x| self.front_end.variable(L::from_bits(x), Region::Polynomial, start, shift);
+        self.of_variable(&row, ordered(variable(first), variable(last)))
     }
 
     /// The same where the polynomial does not answer.
     fn idle<L: Lane>(&self, row: &Row) -> Lines<L> {
-        let v = self.front_end.variable(L::ZERO, Region::Zero, row.shift());
+        let v = self.front_end.variable(L::ZERO, Region::Zero, L::ZERO, row.shift());
         self.of_variable(row, Interval { low: v, high: v })
     }
 

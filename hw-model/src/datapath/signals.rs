@@ -37,6 +37,12 @@ impl Status {
         self.0
     }
 
+    /// The flags of a status port.
+    #[must_use]
+    pub(super) const fn of_bits(bits: u8) -> Self {
+        Self(bits)
+    }
+
     /// True when every flag of `other` is set.
     #[must_use]
     pub const fn contains(self, other: Self) -> bool {

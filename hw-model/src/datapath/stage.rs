@@ -42,6 +42,16 @@ pub struct Fractions {
 }
 
 impl MultiplyAdd {
+    /// A line that is not there: of zeros it makes 0.
+    pub(super) const NOTHING: Self = Self {
+        subtract: false,
+        product_up: 0,
+        addend_up: 0,
+        result_up: 0,
+        drop: 0,
+        rounding: Rounding::Floor,
+    };
+
     /// The line for these fraction bits; `subtract` takes the product away from the addend.
     #[must_use]
     pub const fn aligned(fractions: Fractions, subtract: bool, rounding: Rounding) -> Self {
@@ -92,6 +102,21 @@ impl MultiplyAdd {
     #[must_use]
     pub const fn rounded_by(self, mode: Rounding) -> Self {
         Self { rounding: mode, ..self }
+    }
+
+    /// True where product and addend meet without being moved up and bits are dropped from their sum, as in
+    /// nearly every line.
+    #[must_use]
+    pub const fn is_plain(&self) -> bool {
+        self.product_up == 0 && self.result_up == 0 && self.drop > 0
+    }
+
+    /// The same plain line, with all that the compiler may know of it: it leaves no choice in a loop.
+    #[inline(always)]
+    #[must_use]
+    pub const fn known_plain(self, subtract: bool) -> Self {
+        let drop = if self.drop == 0 { 1 } else { self.drop };
+        Self { subtract, product_up: 0, result_up: 0, drop, ..self }
     }
 
     /// True when the product is taken away from the addend.

@@ -33,6 +33,30 @@ pub struct Division<L> {
     pub digits: L,
 }
 
+impl Division<i64> {
+    /// In the lanes of the arithmetic.
+    #[inline(always)]
+    pub(super) fn widened<L: Lane>(self) -> Division<L> {
+        Division {
+            divisor: L::from_bits(self.divisor),
+            remainder: L::from_bits(self.remainder),
+            digits: L::from_bits(self.digits),
+        }
+    }
+}
+
+impl<L: Lane> Division<L> {
+    /// As registers hold it.
+    #[inline(always)]
+    pub(super) fn narrowed(self) -> Division<i64> {
+        Division {
+            divisor: self.divisor.to_bits(),
+            remainder: self.remainder.to_bits(),
+            digits: self.digits.to_bits(),
+        }
+    }
+}
+
 /// The divider of one configuration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Divider {
@@ -69,6 +93,14 @@ impl Divider {
     #[must_use]
     pub const fn digit_stages(&self) -> u32 {
         self.digit_count.div_ceil(self.digits_per_stage)
+    }
+
+    /// Quotient bits that stage `index` finds.
+    #[inline(always)]
+    #[must_use]
+    pub fn digits_of_stage(&self, index: u32) -> u32 {
+        let done = (index * self.digits_per_stage).min(self.digit_count);
+        self.digits_per_stage.min(self.digit_count - done)
     }
 
     /// True where a rank of registers takes in what quotient bit `digit` (0 is the first) leaves.
@@ -108,9 +140,7 @@ impl Divider {
     /// The quotient bits of stage `index` (0 is the first); the last stage may find fewer.
     #[inline(always)]
     pub fn digit_stage<L: Lane>(&self, index: u32, division: Division<L>) -> Division<L> {
-        let done = (index * self.digits_per_stage).min(self.digit_count);
-        let count = self.digits_per_stage.min(self.digit_count - done);
-        (0..count).fold(division, |division, _| self.digit(division))
+        (0..self.digits_of_stage(index)).fold(division, |division, _| self.digit(division))
     }
 
     /// The finished quotient in the output's unit, rounded once, at most `one`.

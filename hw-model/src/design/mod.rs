@@ -4,8 +4,10 @@
 //! Config → real rows (fit) → fraction bits (budget) → ROM integers (quantise) → ranges → formats → Datapath
 //! ```
 
+mod doubt;
 mod polynomial;
 mod real_row;
+mod revision;
 mod rom_row;
 mod shares;
 mod tail;
@@ -22,7 +24,8 @@ use crate::format::QFormat;
 use crate::quantise::QuantiseError;
 use crate::rom::{FieldName, Rom, Row};
 
-pub use real_row::RealRow;
+pub use real_row::{Outer, RealRow};
+pub use revision::Revision;
 pub use rom_row::RomRow;
 pub use shares::Share;
 
@@ -74,6 +77,11 @@ impl Design {
             .iter()
             .map(|exponent| RealRow::new(&config, levels, exponent))
             .collect::<Result<_, _>>()?;
+        Self::of_rows(config, rows)
+    }
+
+    /// The rest, from rows that are those of the configuration.
+    fn of_rows(config: Config, rows: Vec<RealRow>) -> Result<Self, DesignError> {
         let mut parts = Parts::new(&config, &rows);
         let polynomial = polynomial::derive(&config, &rows, &mut parts)?;
         let divider = tail::derive(&config, &rows, &mut parts)?;
@@ -95,6 +103,7 @@ impl Design {
             output_one: config.output.max_bits().min(config.output.one()),
             narrow,
         };
+        doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, rows, bounds: parts.bounds, datapath })
     }
 
@@ -144,6 +153,8 @@ struct Parts {
     bounds: Vec<Bound>,
     /// Every line with the bits it needs.
     lane_bits: Vec<(&'static str, u32)>,
+    /// Stated formats that the ranges refuse.
+    doubts: Vec<doubt::Doubt>,
 }
 
 impl Parts {
@@ -158,9 +169,12 @@ impl Parts {
                 tail: None,
                 cut: None,
                 shift: None,
+                hand_over: None,
+                shift_outer: None,
             },
             bounds: vec![Bound::default(); rows.len()],
             lane_bits: Vec::new(),
+            doubts: Vec::new(),
         }
     }
 

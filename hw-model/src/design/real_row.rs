@@ -1,8 +1,9 @@
 //! The real functions behind one ROM row.
 
 use crate::config::{Config, Cut, Form, Tail};
+use crate::fit::minimax::{self, Range};
 use crate::fit::{Curve, FitError, Levels, Method, fit};
-use crate::highlight::{Cubic, Rational};
+use crate::highlight::{Cubic, Rational, Segment};
 use crate::quantise::round_scaled;
 use crate::rounding::Rounding;
 
@@ -13,13 +14,28 @@ pub struct RealRow {
     pub exponent: f64,
     /// p = 1 − q: the epicentre is 0 ≤ s ≤ p in s = 1 − x.
     pub epicentre: f64,
-    /// The polynomial; none for schlick.
+    /// The polynomial, or its first segment; none for schlick.
     pub polynomial: Option<Cubic>,
+    /// The second segment, where there is one: it starts at `hand_over`.
+    pub outer: Option<Outer>,
     /// What the divider computes, where the configuration keeps one.
     pub tail: Option<Rational>,
     /// The least x (in the input's unit) at which the polynomial answers.
     pub cut: i64,
-    /// e = ⌊log2 n⌋ in the centred form, 0 in the power form.
+    /// The least x (in the input's unit) at which the first segment answers; the cut where it is the only one,
+    /// and 0 in a configuration of one segment.
+    pub hand_over: i64,
+    /// e = ⌊log2 n⌋ in the centred form (with a range fitted to the error, the greatest that keeps u below 1), 0
+    /// in the power form.
+    pub shift: u32,
+}
+
+/// The second segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outer {
+    /// The cubic, counted from the hand-over.
+    pub segment: Segment,
+    /// The places its v is moved up, so that it stays below 1.
     pub shift: u32,
 }
 
@@ -29,6 +45,9 @@ impl RealRow {
     /// # Errors
     /// When the exponent is out of range.
     pub fn new(config: &Config, levels: Levels, exponent: f64) -> Result<Self, FitError> {
+        if config.segments > 1 || config.cut == Cut::Balanced {
+            return Self::fitted(config, levels, exponent);
+        }
         let own = fit(config.method, exponent, levels)?;
         let (polynomial, tail) = match own.curve {
             Curve::Cubic(cubic) if config.tail == Tail::Rational => {
@@ -53,7 +72,41 @@ impl RealRow {
             _ => epicentre,
         };
         let cut = cut_bits(config, cut_s);
-        Ok(Self { exponent, epicentre, polynomial, tail, cut, shift })
+        Ok(Self { exponent, epicentre, polynomial, outer: None, tail, cut, hand_over: 0, shift })
+    }
+
+    /// The row of minimax segments whose ends are part of the fit.
+    fn fitted(config: &Config, levels: Levels, exponent: f64) -> Result<Self, FitError> {
+        let range = match config.cut {
+            Cut::Balanced => Range::Balanced,
+            Cut::Epicentre | Cut::Minimum => Range::Level(levels.q()),
+        };
+        let fitted = minimax::segments(exponent, config.segments as usize, range)?;
+        let end = |index: usize| fitted.ends.get(index).or(fitted.ends.last()).copied();
+        let last = end(usize::MAX).unwrap_or(1.0);
+        let alone = config.segments > 1 && fitted.further.is_empty();
+        // An x^n that is a cubic itself (n = 1, 2, 3) goes on in the second segment, so that u stays below 1.
+        let first = if alone { 0.5 * last } else { end(0).unwrap_or(1.0) };
+        let hand_over = cut_bits(config, first);
+        let start = (config.input.one() - hand_over) as f64 * config.input.ulp();
+        let k = fitted.first.centred;
+        let same = Segment { start: 0.0, c: [1.0, k.k1, k.k2, k.k3] };
+        let further = fitted.further.first().or(alone.then_some(&same));
+        let outer = further.map(|segment| Outer {
+            segment: segment.counted_from(start),
+            shift: fitted_shift(last - start),
+        });
+        let centred = config.form == Form::Centred;
+        Ok(Self {
+            exponent,
+            epicentre: crate::fit::crossing(exponent, levels.q())?.s,
+            polynomial: Some(fitted.first),
+            outer,
+            tail: None,
+            cut: cut_bits(config, last),
+            hand_over: if config.segments > 1 { hand_over } else { 0 },
+            shift: if centred { fitted_shift(first) } else { 0 },
+        })
     }
 
     /// The least x in the input's unit that lies on the epicentre, x ≥ q.
@@ -68,7 +121,11 @@ impl RealRow {
     #[inline]
     pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
         match (&self.polynomial, &self.tail) {
-            (Some(cubic), _) if above_cut => cubic.centred.value_at_s(s).clamp(0.0, 1.0),
+            (Some(cubic), _) if above_cut => match &self.outer {
+                Some(Outer { segment, .. }) if s > segment.start => segment.value_at_s(s),
+                _ => cubic.centred.value_at_s(s),
+            }
+            .clamp(0.0, 1.0),
             (_, Some(rational)) => rational.value_at_s(s),
             _ => 0.0,
         }
@@ -108,6 +165,14 @@ fn lowest_s(cubic: &Cubic, epicentre: f64, nothing: f64) -> f64 {
 fn cut_bits(config: &Config, s: f64) -> i64 {
     let floor = round_scaled(s, config.input.fraction_bits(), Rounding::Floor).unwrap_or(0);
     config.input.one() - floor as i64
+}
+
+/// The greatest e that keeps length·2^e below 1, with room for its rounding (0 where there is none);
+/// 0 ≤ length ≤ 1. Below 1 the powers of u do not multiply the last bit of a coefficient. At most 62, for a
+/// segment of no length.
+fn fitted_shift(length: f64) -> u32 {
+    const GREATEST: f64 = 1.0 - 1.0 / 128.0;
+    if length > 0.0 { floor_log2((GREATEST / length).max(1.0)).min(62) } else { 62 }
 }
 
 /// ⌊log2 n⌋ from the binary exponent of n ≥ 1: exact, where a logarithm could round up.

@@ -6,7 +6,8 @@
 //! f64 is good to a few 2^−53, also where a, b and c are in the ten thousands and their sum is 1.
 
 use crate::config::Form;
-use crate::highlight::Rational;
+use crate::format::QFormat;
+use crate::highlight::{Rational, Segment};
 use crate::quantise::real;
 use crate::rom::{FieldName, Row};
 
@@ -17,6 +18,8 @@ use super::Design;
 pub struct RomRow {
     /// h0 − s·(h1 − s·(h2 − s·h3)), clamped to [0, 1].
     polynomial: Option<[f64; 4]>,
+    /// c0 − v·(c1 − v·(c2 − v·c3)), v = s − start, the same.
+    outer: Option<Segment>,
     tail: Option<Rational>,
 }
 
@@ -29,17 +32,23 @@ impl Design {
         let polynomial = formats.polynomial.as_ref().map(|formats| {
             let formats = formats.coefficients;
             match self.config.form {
-                Form::Centred => centred(&row, formats.map(|format| format.fraction_bits())),
+                Form::Centred => centred(&row, row.shift(), formats.map(QFormat::fraction_bits)),
                 Form::Power => around_one(&row, formats.map(|format| format.fraction_bits())),
             }
         });
+        let outer =
+            formats.polynomial.as_ref().zip(formats.hand_over).map(|(formats, hand_over)| {
+                let fractions = formats.coefficients.map(QFormat::fraction_bits);
+                let start = 1.0 - real(row.get(FieldName::HandOver), hand_over);
+                Segment { start, c: centred(&row.in_outer(), row.shift_outer(), fractions) }
+            });
         let tail = formats.tail.as_ref().map(|formats| {
             let a = real(row.get(FieldName::TailA), formats.a);
             let b = real(row.get(FieldName::TailB), formats.b);
             // Both are multiples of one power of two and have few bits: the difference is exact.
             Rational { a, b, at_one: a - b }
         });
-        RomRow { polynomial, tail }
+        RomRow { polynomial, outer, tail }
     }
 }
 
@@ -49,9 +58,11 @@ impl RomRow {
     #[inline]
     pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
         match (&self.polynomial, &self.tail) {
-            (Some([h0, h1, h2, h3]), _) if above_cut => {
-                (h0 - s * (h1 - s * (h2 - s * h3))).clamp(0.0, 1.0)
+            (Some([h0, h1, h2, h3]), _) if above_cut => match &self.outer {
+                Some(segment) if s > segment.start => segment.value_at_s(s),
+                _ => h0 - s * (h1 - s * (h2 - s * h3)),
             }
+            .clamp(0.0, 1.0),
             (_, Some(tail)) => tail.value_at_s(s).min(1.0),
             _ => 0.0,
         }
@@ -61,9 +72,9 @@ impl RomRow {
 const FIELDS: [FieldName; 4] = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
 
 /// c_i·u^i = (c_i·2^ie)·s^i: a change of exponent, exact.
-fn centred(row: &Row, fractions: [u32; 4]) -> [f64; 4] {
+fn centred(row: &Row, shift: u32, fractions: [u32; 4]) -> [f64; 4] {
     std::array::from_fn(|power| {
-        let scale = f64::from(power as u32 * row.shift()) - f64::from(fractions[power]);
+        let scale = f64::from(power as u32 * shift) - f64::from(fractions[power]);
         row.get(FIELDS[power]) as f64 * scale.exp2()
     })
 }

@@ -1,6 +1,6 @@
 //! What each register adds to the error bound, and what one bit less of it would cost.
 
-use super::polynomial::{row_polynomial, stated, surroundings};
+use super::polynomial::{Pieces, stated, surroundings};
 use super::tail::row_tail;
 use super::{Design, RealRow};
 use crate::budget::RowTail;
@@ -35,7 +35,8 @@ impl Share {
 
 impl Design {
     /// The part of every register in the error bound; registers that the configuration does not have
-    /// are left out. Of one row they add up to its [`bounds`](Self::bounds).
+    /// are left out. Of one row of one segment they add up to its [`bounds`](Self::bounds), or to more where
+    /// coefficients are moved by steps, which make up for each other.
     #[must_use]
     pub fn error_shares(&self) -> Vec<Share> {
         let mut all = self.polynomial_shares();
@@ -47,7 +48,8 @@ impl Design {
         let Some(formats) = &self.datapath.formats().polynomial else { return Vec::new() };
         let config = &self.config;
         let surroundings = surroundings(config);
-        let rows: Vec<Sensitivity> = of_rows(&self.rows, |row| row_polynomial(config, row))
+        let rows: Vec<Sensitivity> = Pieces::of(config, &self.rows)
+            .all()
             .map(|row| Sensitivity::of(row, &surroundings))
             .collect();
         let [c0, c1, c2, c3] = formats.coefficients;
@@ -138,7 +140,10 @@ mod tests {
                 let sum = |shares: &[Share]| shares.iter().map(|share| share.ulp).sum::<f64>();
                 let bound = design.bounds()[0];
                 let epicentre = bound.coefficient + bound.datapath;
-                assert!((sum(&polynomial) - epicentre).abs() < 1e-9, "{}", preset.name);
+                // Of two segments the worse one counts for each register, and one of them for the bound.
+                let two = design.datapath().has_two_segments();
+                let over = sum(&polynomial) - epicentre;
+                assert!(over > -1e-9 && over < if two { 0.5 } else { 1e-9 }, "{}", preset.name);
                 assert!((sum(&tail) - bound.tail).abs() < 1e-9, "{}", preset.name);
             }
         }

@@ -56,6 +56,14 @@ impl DoubleDouble {
         guess + (two_sum(x, -1.0) + (-guess).exp_m1() * Self::from(x))
     }
 
+    /// ln(1 − s) for 0 ≤ s < 1: the same Newton step, with r = (1 − s)·e^−y₀ − 1 = expm1(−y₀) − s·e^−y₀, of
+    /// which both terms are of size s/(1 − s); absolute error 2⁻⁹²·s/(1 − s).
+    pub fn ln_one_minus(s: Self) -> Self {
+        let guess = Self::from(core_math::log1p(-s.hi));
+        let grown = (-guess).exp_m1();
+        guess + (grown - s * (Self::ONE + grown))
+    }
+
     /// e^self − 1 for −700 ≤ self ≤ 700, with a relative error of at most 2⁻⁹⁴.
     ///
     /// The argument is halved until it is at most 2⁻⁷, where twelve Taylor terms leave 2⁻¹¹⁷; then

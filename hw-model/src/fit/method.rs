@@ -16,6 +16,8 @@ pub enum Method {
     ThreePoint,
     /// The cubic a·x·(x − m)² with f(1) = 1, f(q) = Q: its minimum touches zero.
     Tangent,
+    /// The cubic with f(1) = 1 whose greatest error on the epicentre is least.
+    Minimax,
     /// The parabola with f(1) = 1, f(q) = Q, f′(q) = nQ/q.
     Quadratic,
     /// The hyperbola x/(A − B·x) with g(q) = Q, g′(q) = nQ/q, meant for x < q.
@@ -29,16 +31,17 @@ pub enum Method {
 /// A name that is not a method's.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{0:?} is not a method; choose one of hermite, three_point, tangent, quadratic, rational, composite, schlick"
+    "{0:?} is not a method; choose one of hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick"
 )]
 pub struct UnknownMethod(pub String);
 
 impl Method {
     /// Every method, in the order in which they are explained.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Hermite,
         Self::ThreePoint,
         Self::Tangent,
+        Self::Minimax,
         Self::Quadratic,
         Self::Rational,
         Self::Composite,
@@ -52,6 +55,7 @@ impl Method {
             Self::Hermite => "hermite",
             Self::ThreePoint => "three_point",
             Self::Tangent => "tangent",
+            Self::Minimax => "minimax",
             Self::Quadratic => "quadratic",
             Self::Rational => "rational",
             Self::Composite => "composite",

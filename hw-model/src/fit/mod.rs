@@ -18,6 +18,7 @@ mod double_double;
 mod hermite;
 mod levels;
 mod method;
+pub mod minimax;
 mod quadratic;
 mod rational;
 mod tangent;
@@ -84,6 +85,7 @@ pub fn fit(method: Method, exponent: f64, levels: Levels) -> Result<Fit, FitErro
             Curve::Cubic(three_point::three_point(exponent, &at_q, &at_g))
         }
         Method::Tangent => Curve::Cubic(tangent::tangent(exponent, &at_q)),
+        Method::Minimax => Curve::Cubic(minimax::minimax(exponent, &at_q).0),
         Method::Quadratic => Curve::Cubic(quadratic::quadratic(exponent, &at_q)),
         Method::Rational => Curve::Rational(rational()),
         Method::Composite => Curve::Composite { epicentre: hermite(), tail: rational() },

@@ -9,9 +9,11 @@ pub mod exact;
 pub mod phong;
 pub mod rational;
 pub mod schlick;
+pub mod segment;
 
 pub use cubic::{Centred, Cubic, Power};
 pub use exact::{ExactError, ExactPower};
 pub use phong::{phong, phong_at_s};
 pub use rational::Rational;
 pub use schlick::{schlick, schlick_at_s};
+pub use segment::Segment;

@@ -8,7 +8,7 @@
 //! Everything is computed in s = 1 − x; near the highlight x has no digits left to tell.
 
 use hw_model::fit::Fit;
-use hw_model::highlight::phong_at_s;
+use hw_model::highlight::{Centred, Segment, phong_at_s};
 
 /// Grid cells over the region, and again over the part of it nearest to the highlight.
 const CELLS: u32 = 256;
@@ -91,11 +91,45 @@ pub struct ApproximationError {
     pub relative: Option<Peak>,
 }
 
+impl ApproximationError {
+    /// The greater of each, of two regions side by side.
+    #[must_use]
+    pub fn or(self, other: Self) -> Self {
+        let greater = |a: Peak, b: Peak| if b.error > a.error { b } else { a };
+        Self {
+            absolute: greater(self.absolute, other.absolute),
+            relative: self.relative.zip(other.relative).map(|(a, b)| greater(a, b)),
+        }
+    }
+}
+
+/// What is measured: a value at x = 1 − s, and its slope against s.
+pub trait Approximant {
+    /// The value.
+    fn value_at_s(&self, s: f64) -> f64;
+    /// The slope.
+    fn slope_at_s(&self, s: f64) -> f64;
+}
+
+macro_rules! approximant {
+    ($($kind:ty),*) => {$(
+        impl Approximant for $kind {
+            fn value_at_s(&self, s: f64) -> f64 {
+                self.value_at_s(s)
+            }
+            fn slope_at_s(&self, s: f64) -> f64 {
+                self.slope_at_s(s)
+            }
+        }
+    )*};
+}
+approximant!(Fit, Centred, Segment);
+
 /// Measures `fit`, which was made for `exponent`, over a region.
 ///
 /// The error's magnitude is accurate to about 10⁻¹⁵ absolutely, the noise of evaluating f.
 #[must_use]
-pub fn approximation(fit: &Fit, exponent: f64, region: Region) -> ApproximationError {
+pub fn approximation(fit: &impl Approximant, exponent: f64, region: Region) -> ApproximationError {
     let grid = region.grid(exponent);
     let power = |s| phong_at_s(exponent, s);
     let absolute = greatest(

@@ -7,14 +7,15 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use hw_model::design::Design;
+use hw_model::config::{Config, Cut};
+use hw_model::design::{Design, RealRow};
 use hw_model::fit::{FitError, fit};
 use rayon::prelude::*;
 use serde::Serialize;
 use vectors::stimulus::corners::Corners;
 
-use super::approximation::{Region, approximation};
-use super::sweep::{RowErrors, input_quantisation, sweep_row};
+use super::approximation::{ApproximationError, Region, approximation};
+use super::sweep::{RowErrors, Xs, input_quantisation, sweep_row};
 
 /// Points spread evenly over the epicentre, and again over [0, 1].
 pub const SPREAD: i64 = 2048;
@@ -163,7 +164,7 @@ fn sweep_everything(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> 
         .map(|index| {
             let (address, piece) = (index / pieces, index % pieces);
             let last = (piece * PIECE + PIECE - 1).min(greatest);
-            let errors = sweep_row(design, address as u32, piece * PIECE..=last);
+            let errors = sweep_row(design, address as u32, Xs::Run { first: piece * PIECE, last });
             progress.advance(errors.samples);
             errors
         })
@@ -179,7 +180,7 @@ fn sweep_samples(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> {
         .into_par_iter()
         .enumerate()
         .map(|(address, xs)| {
-            let errors = sweep_row(design, address as u32, xs.into_iter());
+            let errors = sweep_row(design, address as u32, Xs::List(&xs));
             progress.advance(errors.samples);
             errors
         })
@@ -217,6 +218,24 @@ pub fn samples(design: &Design) -> Vec<Vec<i64>> {
     rows
 }
 
+/// The epicentre's error where the ends of the segments are part of the fit: each segment by itself, as
+/// they meet in a kink. None for a row of one segment of a given range.
+fn of_segments(config: &Config, row: &RealRow) -> Option<ApproximationError> {
+    let first = row.polynomial.as_ref()?;
+    if config.segments == 1 && config.cut != Cut::Balanced {
+        return None;
+    }
+    let end = row.epicentre;
+    let start = row.outer.map_or(end, |outer| outer.segment.start.min(end));
+    let near = Region { s_low: 0.0, s_high: start };
+    let found = approximation(&first.centred, row.exponent, near);
+    let far = Region { s_low: start, s_high: end };
+    Some(match &row.outer {
+        Some(outer) if start < end => found.or(approximation(&outer.segment, row.exponent, far)),
+        _ => found,
+    })
+}
+
 fn error_row(
     design: &Design,
     exponent: f64,
@@ -226,7 +245,12 @@ fn error_row(
     let config = design.config();
     // A design's levels were checked when it was made.
     let fit = fit(config.method, exponent, config.levels().unwrap_or_default())?;
-    let method = approximation(&fit, exponent, Region::epicentre(&fit));
+    let fitted = design
+        .rows()
+        .iter()
+        .find(|row| row.exponent == exponent)
+        .and_then(|row| of_segments(config, row));
+    let method = fitted.unwrap_or_else(|| approximation(&fit, exponent, Region::epicentre(&fit)));
     let x = |bits: i64| hw_model::quantise::real(bits, config.input);
     Ok(ErrorRow {
         n: exponent,

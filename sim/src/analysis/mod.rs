@@ -4,5 +4,9 @@
 pub mod approximation;
 pub mod claims;
 pub mod error_report;
+pub mod pareto;
+pub mod reference_product;
+pub mod refine;
+pub mod sizing;
 pub mod stability;
 pub mod sweep;

@@ -88,17 +88,66 @@ impl RowErrors {
     }
 }
 
-/// Sweeps one row over these x, in rising order, each in [0, 1].
+/// The x of a sweep, in rising order, each in [0, 1].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Xs<'a> {
+    /// Every one from `first` to `last`.
+    Run {
+        /// The least.
+        first: i64,
+        /// The greatest.
+        last: i64,
+    },
+    /// These.
+    List(&'a [i64]),
+}
+
+impl Xs<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Run { first, last } => usize::try_from(last - first + 1).unwrap_or(0),
+            Self::List(xs) => xs.len(),
+        }
+    }
+
+    fn blocks(&self) -> usize {
+        self.len().div_ceil(BLOCK)
+    }
+
+    /// Puts the x of one block into `xs`.
+    fn fill(&self, block: usize, xs: &mut Vec<i64>) {
+        let places = block * BLOCK..self.len().min((block + 1) * BLOCK);
+        xs.clear();
+        match self {
+            Self::Run { first, .. } => {
+                xs.extend(places.map(|place| first + place as i64));
+            }
+            Self::List(list) => xs.extend_from_slice(&list[places]),
+        }
+    }
+}
+
+/// Sweeps one row over these x.
+///
+/// Every block is seen with an estimate of x^n. Then those blocks that may hold the greatest total error are
+/// seen again, with the reference itself at each x that may be the place.
 #[must_use]
-pub fn sweep_row(design: &Design, address: u32, xs: impl Iterator<Item = i64>) -> RowErrors {
+pub fn sweep_row(design: &Design, address: u32, xs: Xs<'_>) -> RowErrors {
     let mut sweep = Sweep::new(design, address);
-    let mut errors = RowErrors::NONE;
+    let mut errors = RowErrors { samples: xs.len() as u64, ..RowErrors::NONE };
     let mut block = Vec::with_capacity(BLOCK);
-    let mut xs = xs.peekable();
-    while xs.peek().is_some() {
-        block.clear();
-        block.extend(xs.by_ref().take(BLOCK));
-        see(&mut sweep, &block, &mut errors);
+    let totals: Vec<Totals> = (0..xs.blocks())
+        .map(|index| {
+            xs.fill(index, &mut block);
+            see(&mut sweep, &block, &mut errors)
+        })
+        .collect();
+    let floors = Totals::floors(&totals);
+    for (index, total) in totals.iter().enumerate() {
+        if total.reach(floors) {
+            xs.fill(index, &mut block);
+            settle(&mut sweep, &block, floors, &mut errors);
+        }
     }
     errors
 }
@@ -115,23 +164,61 @@ fn greatest(errors: &[f64]) -> f64 {
     lanes.into_iter().chain(rest.iter().copied()).fold(0.0, more)
 }
 
-/// Compiled for the vector widths named here, the machine's own chosen at run time. Rust never fuses or
+/// Compiled for the vector widths named here; the first that the machine has is chosen at run time. Rust never fuses or
 /// reorders floating-point operations, so the results are the same in all of them.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
-fn see(sweep: &mut Sweep<'_>, xs: &[i64], errors: &mut RowErrors) {
-    sweep.see(xs, errors);
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn see(sweep: &mut Sweep<'_>, xs: &[i64], errors: &mut RowErrors) -> Totals {
+    sweep.see(xs, errors)
 }
 
+/// See [`see`].
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn settle(sweep: &mut Sweep<'_>, xs: &[i64], floors: [f64; 2], errors: &mut RowErrors) {
+    sweep.settle(xs, floors, errors);
+}
+
+/// What is known of the total errors of a block: on all of it, and on the part of it on the epicentre.
+#[derive(Debug, Clone, Copy)]
+struct Totals {
+    /// The greatest estimates.
+    greatest: [f64; 2],
+    /// How far an estimate may be off.
+    slack: f64,
+}
+
+/// Errors below this are none: x^n may be taken as 0 where it is less. No output has such an ulp, and the peak of
+/// a row is the error at some x where either the hardware or x^n shows something.
+const NEGLIGIBLE: f64 = 1e-60;
+
+/// Stands for the greatest error of no samples.
+const NOWHERE: f64 = -1.0;
+
+impl Totals {
+    /// What the greatest exact errors of all blocks reach at least.
+    fn floors(totals: &[Self]) -> [f64; 2] {
+        [0, 1].map(|part| {
+            let floors = totals.iter().map(|total| total.greatest[part] - total.slack);
+            floors.fold(NEGLIGIBLE, f64::max)
+        })
+    }
+
+    fn reach(&self, floors: [f64; 2]) -> bool {
+        self.greatest.iter().zip(floors).any(|(greatest, floor)| greatest + self.slack >= floor)
+    }
+}
+
+/// The arrays of a block; a constant length, and each in a place of its own.
 struct Sweep<'a> {
     design: &'a Design,
     address: u32,
     epicentre: i64,
     block: Block,
-    powers: Powers,
-    hardware: Vec<f64>,
-    rom: Vec<f64>,
-    ideal: Vec<f64>,
-    errors: Vec<f64>,
+    intensities: [i64; BLOCK],
+    hardware: [f64; BLOCK],
+    rom: [f64; BLOCK],
+    ideal: [f64; BLOCK],
+    powers: [f64; BLOCK],
+    errors: [f64; BLOCK],
 }
 
 impl<'a> Sweep<'a> {
@@ -141,71 +228,107 @@ impl<'a> Sweep<'a> {
             address,
             epicentre: design.rows()[address as usize].first_of_epicentre(design.config()),
             block: Block::default(),
-            powers: Powers::default(),
-            hardware: Vec::new(),
-            rom: Vec::new(),
-            ideal: Vec::new(),
-            errors: Vec::new(),
+            intensities: [0; BLOCK],
+            hardware: [0.0; BLOCK],
+            rom: [0.0; BLOCK],
+            ideal: [0.0; BLOCK],
+            powers: [0.0; BLOCK],
+            errors: [0.0; BLOCK],
         }
     }
 
     #[inline(always)]
-    fn see(&mut self, xs: &[i64], errors: &mut RowErrors) {
+    fn see(&mut self, xs: &[i64], errors: &mut RowErrors) -> Totals {
+        let len = xs.len();
         self.evaluate(xs);
-        difference(&self.rom, &self.ideal, &mut self.errors);
-        errors.coefficient.see(&self.errors, xs);
-        difference(&self.hardware, &self.rom, &mut self.errors);
-        errors.datapath.see(&self.errors, xs);
-        difference(&self.hardware, &self.ideal, &mut self.errors);
-        errors.implementation.see(&self.errors, xs);
-        self.see_total(xs, errors);
-        errors.samples += xs.len() as u64;
+        self.real_rows(xs);
+        let Self { hardware, rom, ideal, errors: differences, .. } = self;
+        let (hardware, rom, ideal) = (&hardware[..len], &rom[..len], &ideal[..len]);
+        let differences = &mut differences[..len];
+        difference(rom, ideal, differences);
+        errors.coefficient.see(differences, xs);
+        difference(hardware, rom, differences);
+        errors.datapath.see(differences, xs);
+        difference(hardware, ideal, differences);
+        errors.implementation.see(differences, xs);
+        self.totals(xs)
     }
 
-    /// Evaluates the pipeline and both real functions at every x. x rises, so that each part of the
-    /// block lies on one side of the cut. Bits and x have at most 53 bits in every format of use, and
-    /// then become an f64 exactly; wider ones round in the 53rd bit.
+    /// The pipeline at every x. Bits have at most 53 bits in every format of use, and then become an f64
+    /// exactly; wider ones round in the 53rd bit.
     #[inline(always)]
     fn evaluate(&mut self, xs: &[i64]) {
-        let config = self.design.config();
-        let row = &self.design.rows()[self.address as usize];
-        let rom_row = self.design.rom_row(self.address);
-        self.design.datapath().evaluate_block(self.address, xs, &mut self.block);
-        let output_ulp = config.output.ulp();
-        self.hardware.clear();
-        self.hardware.extend(self.block.intensities.iter().map(|&bits| bits as f64 * output_ulp));
-
-        let (one, ulp) = (config.input.one(), config.input.ulp());
-        let s = |&x: &i64| (one - x) as f64 * ulp;
-        self.rom.clear();
-        self.ideal.clear();
-        let (below, above) = xs.split_at(xs.partition_point(|&x| x < row.cut));
-        for (xs, above_cut) in [(below, false), (above, true)] {
-            self.rom.extend(xs.iter().map(|x| rom_row.value_at_s(s(x), above_cut)));
-            self.ideal.extend(xs.iter().map(|x| row.value_at_s(s(x), above_cut)));
+        let Some((&first, &last)) = xs.first().zip(xs.last()) else {
+            return;
+        };
+        let output_ulp = self.design.config().output.ulp();
+        let intensities = if last - first == xs.len() as i64 - 1 {
+            let run = &mut self.intensities[..xs.len()];
+            self.design.datapath().evaluate_run(self.address, first, run);
+            &*run
+        } else {
+            self.design.datapath().evaluate_block(self.address, xs, &mut self.block);
+            self.block.intensities.as_slice()
+        };
+        for (hardware, &bits) in self.hardware.iter_mut().zip(intensities.iter()) {
+            *hardware = bits as f64 * output_ulp;
         }
     }
 
-    /// Against x^n. The estimates spare the reference wherever it could not make a new peak.
+    /// Both real functions at every x. x rises, so that each part of the block lies on one side of the cut.
     #[inline(always)]
-    fn see_total(&mut self, xs: &[i64], errors: &mut RowErrors) {
+    fn real_rows(&mut self, xs: &[i64]) {
+        let config = self.design.config();
+        let row = self.design.rows()[self.address as usize];
+        let rom_row = self.design.rom_row(self.address);
+        let (one, ulp) = (config.input.one(), config.input.ulp());
+        let cut = xs.partition_point(|&x| x < row.cut);
+        let (below, above) = xs.split_at(cut);
+        for (xs, places, above_cut) in [(below, 0..cut, false), (above, cut..xs.len(), true)] {
+            let (rom, ideal) = (&mut self.rom[places.clone()], &mut self.ideal[places]);
+            for (&x, (rom, ideal)) in xs.iter().zip(rom.iter_mut().zip(ideal)) {
+                let s = (one - x) as f64 * ulp;
+                *rom = rom_row.value_at_s(s, above_cut);
+                *ideal = row.value_at_s(s, above_cut);
+            }
+        }
+    }
+
+    /// Estimates of the errors against x^n.
+    #[inline(always)]
+    fn totals(&mut self, xs: &[i64]) -> Totals {
+        let config = self.design.config();
+        let exponent = self.design.rows()[self.address as usize].exponent;
+        let powers = &mut self.powers[..xs.len()];
+        let relative = estimate(exponent, xs, config.input.ulp(), powers);
+        let top = powers.last().copied().unwrap_or(0.0);
+        let errors = &mut self.errors[..xs.len()];
+        difference(&self.hardware[..xs.len()], powers, errors);
+        let first = xs.partition_point(|&x| x < self.epicentre);
+        let on_epicentre = if first < xs.len() { greatest(&errors[first..]) } else { NOWHERE };
+        let greatest = [greatest(errors), on_epicentre];
+        let slack = slack(relative, top, greatest[0], config.output.ulp());
+        Totals { greatest, slack }
+    }
+
+    /// The exact errors wherever one could be the greatest.
+    #[inline(always)]
+    fn settle(&mut self, xs: &[i64], floors: [f64; 2], errors: &mut RowErrors) {
+        self.evaluate(xs);
+        let totals = self.totals(xs);
         let ulp = self.design.config().input.ulp();
         let exponent = self.design.rows()[self.address as usize].exponent;
-        let slack = self.powers.estimate(exponent, xs, ulp);
-        difference(&self.hardware, &self.powers.estimates, &mut self.errors);
         let first = xs.partition_point(|&x| x < self.epicentre);
-        for (range, peak) in
-            [(0..xs.len(), &mut errors.full_range), (first..xs.len(), &mut errors.epicentre)]
+        let peaks = [&mut errors.full_range, &mut errors.epicentre];
+        for (range, (floor, peak)) in
+            [0..xs.len(), first..xs.len()].into_iter().zip(floors.into_iter().zip(peaks))
         {
-            let greatest = greatest(&self.errors[range.clone()]);
-            if greatest + slack <= peak.error {
-                continue;
-            }
-            // The greatest exact error is among those whose estimates come within twice the slack.
             for index in range {
-                if self.errors[index] + slack >= greatest - slack {
-                    let exact = phong(exponent, xs[index] as f64 * ulp);
-                    let error = (self.hardware[index] - exact).abs();
+                if self.errors[index] + totals.slack >= floor {
+                    let error = match totals.slack {
+                        0.0 => self.errors[index],
+                        _ => (self.hardware[index] - phong(exponent, xs[index] as f64 * ulp)).abs(),
+                    };
                     *peak = peak.or(Peak { error, x: xs[index] });
                 }
             }
@@ -213,52 +336,77 @@ impl<'a> Sweep<'a> {
     }
 }
 
+/// How far the estimate of an error of a block may be off its exact value, both rounded to f64: x^n by its
+/// relative error, at most what it is of the last and greatest; and the two differences by half of an ulp each.
+///
+/// Where x^n is so small that the hardware's multiple of `output_ulp` swallows it, the differences are that
+/// multiple itself, however x^n is off: they are exact, unless the hardware shows 0 in all of the block.
+fn slack(relative: f64, top: f64, greatest: f64, output_ulp: f64) -> f64 {
+    if top < output_ulp * (-56_f64).exp2() && greatest >= output_ulp {
+        return 0.0;
+    }
+    top * relative + greatest * f64::EPSILON
+}
+
 #[inline(always)]
-fn difference(left: &[f64], right: &[f64], errors: &mut Vec<f64>) {
-    errors.clear();
-    errors.extend(left.iter().zip(right).map(|(left, right)| (left - right).abs()));
+fn difference(left: &[f64], right: &[f64], errors: &mut [f64]) {
+    for ((error, left), right) in errors.iter_mut().zip(left).zip(right) {
+        *error = (left - right).abs();
+    }
 }
 
-/// Quick estimates of x^n for a block of samples, to see which of them need the reference.
-#[derive(Default)]
-struct Powers {
-    estimates: Vec<f64>,
-    squares: Vec<f64>,
-}
-
-impl Powers {
-    /// Fills `estimates` with x^n and returns how far each may be off.
-    ///
-    /// Integer n: by squaring, all samples together. k multiplications in a row have a relative error
-    /// of k·2^−53, and squaring doubles what is there, so x^n is off by at most n·2^−52 (x^n ≤ 1).
-    /// Other n: the reference itself, exact.
-    #[inline(always)]
-    fn estimate(&mut self, exponent: f64, xs: &[i64], ulp: f64) -> f64 {
-        const GREATEST: f64 = 65_536.0;
-        self.squares.clear();
-        self.squares.extend(xs.iter().map(|&x| x as f64 * ulp));
-        self.estimates.clear();
-        if exponent.fract() != 0.0 || exponent > GREATEST {
-            self.estimates.extend(self.squares.iter().map(|&x| phong(exponent, x)));
-            return 0.0;
+/// Puts estimates of x^n into `powers`, and returns their greatest relative error; those below [`NEGLIGIBLE`] may
+/// be 0.
+///
+/// Integer n: by squaring, all samples together. k multiplications in a row have a relative error
+/// of k·2^−53, and squaring doubles what is there, so x^n is off by at most n·2^−52 of itself.
+/// Other n: the reference itself, exact.
+#[inline(always)]
+pub(super) fn estimate(exponent: f64, xs: &[i64], ulp: f64, powers: &mut [f64]) -> f64 {
+    const GREATEST: f64 = 65_536.0;
+    // x rises: the last power is the greatest. The factor is far more than an error of powi.
+    let last = xs.last().map_or(0.0, |&x| x as f64 * ulp);
+    if last.powf(exponent) < NEGLIGIBLE / 1e3 {
+        powers.fill(0.0);
+        return 0.0;
+    }
+    if exponent.fract() != 0.0 || exponent > GREATEST {
+        for (power, &x) in powers.iter_mut().zip(xs) {
+            *power = phong(exponent, x as f64 * ulp);
         }
-        self.estimates.resize(xs.len(), 1.0);
-        let mut remaining = exponent as u32;
-        loop {
-            if remaining & 1 == 1 {
-                for (power, square) in self.estimates.iter_mut().zip(&self.squares) {
-                    *power *= square;
-                }
+        return 0.0;
+    }
+    let exponent = exponent as u32;
+    for (powers, xs) in powers.chunks_mut(POWERS).zip(xs.chunks(POWERS)) {
+        let mut squares = [0.0; POWERS];
+        for (square, &x) in squares.iter_mut().zip(xs) {
+            *square = x as f64 * ulp;
+        }
+        powers.copy_from_slice(&by_squaring(exponent, squares)[..powers.len()]);
+    }
+    f64::from(exponent) * f64::EPSILON
+}
+
+/// Powers computed together: as many as stay in registers.
+const POWERS: usize = 64;
+
+#[inline(always)]
+fn by_squaring(exponent: u32, mut squares: [f64; POWERS]) -> [f64; POWERS] {
+    let mut powers = [1.0; POWERS];
+    let mut remaining = exponent;
+    loop {
+        if remaining & 1 == 1 {
+            for (power, square) in powers.iter_mut().zip(&squares) {
+                *power *= square;
             }
-            remaining >>= 1;
-            if remaining == 0 {
-                return exponent * f64::EPSILON;
-            }
-            for square in &mut self.squares {
-                // Far below any slack, and a subnormal factor would take a hundred cycles.
-                let negligible = *square < 1e-100;
-                *square = if negligible { 0.0 } else { *square * *square };
-            }
+        }
+        remaining >>= 1;
+        if remaining == 0 {
+            return powers;
+        }
+        for square in &mut squares {
+            // Far below NEGLIGIBLE, and a subnormal factor would take a hundred cycles.
+            *square = if *square < 1e-100 { 0.0 } else { *square * *square };
         }
     }
 }

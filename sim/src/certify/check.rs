@@ -140,7 +140,8 @@ fn check_exponent(claim: &ExponentClaim, levels: Levels) -> Result<Checked, Faul
         }
         Finding::Exact => Err(Fault::new(name, "the method is not exact for this exponent")),
         Finding::Enclosed(enclosure) => {
-            let error = OneExponent::new(*method, *n, *region, measure, levels);
+            let error = OneExponent::new(*method, *n, *region, measure, levels)
+                .map_err(|error| Fault::new("n", error.to_string()))?;
             check_enclosure(enclosure, &error, false)
                 .map_err(|fault| fault.within(&format!("{name}.")))
         }
@@ -155,8 +156,9 @@ fn check_every_exponent(claims: &Claims<EveryClaim>) -> Result<Checked, Fault> {
     claims.claims.iter().enumerate().try_fold(Checked::default(), |sum, (index, claim)| {
         let EveryClaim { method, absolute, relative } = claim;
         let place = format!("claims[{index}] ({method}, every n), ");
-        if !Region::of(*method).contains(&Region::Epicentre) {
-            return Err(Fault::new("method", "it is not made for an epicentre").within(&place));
+        if !Region::has_formula_of_n(*method) {
+            let fault = Fault::new("method", "it has no formula on the epicentre, in n");
+            return Err(fault.within(&place));
         }
         let enclosure = |enclosure, measure, name: &str| {
             let error = EveryExponent::new(*method, measure, claims.levels);

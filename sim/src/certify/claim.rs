@@ -18,12 +18,21 @@ impl Region {
     #[must_use]
     pub const fn of(method: Method) -> &'static [Self] {
         match method {
-            Method::Hermite | Method::ThreePoint | Method::Tangent | Method::Quadratic => {
-                &[Self::Epicentre]
-            }
+            Method::Hermite
+            | Method::ThreePoint
+            | Method::Tangent
+            | Method::Minimax
+            | Method::Quadratic => &[Self::Epicentre],
             Method::Rational => &[Self::Tail],
             Method::Composite | Method::Schlick => &[Self::Epicentre, Self::Tail],
         }
+    }
+
+    /// Whether a method is made for the epicentre by a formula in n, so that every n can be bounded at once.
+    /// `minimax` is found for each n by itself.
+    #[must_use]
+    pub const fn has_formula_of_n(method: Method) -> bool {
+        !matches!(method, Method::Minimax | Method::Rational)
     }
 
     /// As in files and tables.

@@ -20,9 +20,13 @@
 //! P′)·a3))/h. `tangent` is (1 − hS)·(1 − U·S)², U = (1 − k)/P, 1 − k = −expm1(−(1 − h)·L/2). The hyperbolas
 //! are N·x/(c + (1 − h)·S): N = Q, c = 1 − P for the tail, N = c = 1 for `schlick`.
 //!
+//! `minimax` has no formula: its curve is f = 1 − S·(k1·h − S·(k2·h² − S·k3·h³)) with the k of
+//! `hw_model::fit` as they are, at one n only. What is enclosed is then the error of those coefficients.
+//!
 //! These formulas are not those of `hw_model::fit`, on purpose.
 
 use hw_model::fit::{Levels, Method};
+use hw_model::highlight::Centred;
 
 use super::claim::Region;
 use crate::interval::{Interval, Real};
@@ -40,6 +44,8 @@ enum Shape<R> {
     Cubic { p: R, p_far: R, a1: R, a2: R, a3: R },
     /// U.
     Tangent { u: R },
+    /// k1·h, k2·h², k3·h³.
+    Centred { b: [R; 3] },
     /// N, c.
     Hyperbola { scale: R, at_one: R },
 }
@@ -74,6 +80,14 @@ pub fn reciprocal(exponent: f64) -> Interval {
 }
 
 impl<R: Real> Curve<R> {
+    /// The curve of given coefficients, h = 1/n.
+    #[must_use]
+    pub fn of_coefficients(coefficients: &Centred, h: R) -> Self {
+        let &Centred { k1, k2, k3 } = coefficients;
+        let [k1, k2, k3] = [k1, k2, k3].map(R::exactly);
+        Self { h, shape: Shape::Centred { b: [k1 * h, k2 * h * h, k3 * h * h * h] } }
+    }
+
     /// The curve that `method` has on `region`; h within [0, 1].
     #[must_use]
     pub fn new(method: Method, region: Region, logs: &Logs, h: R) -> Self {
@@ -89,9 +103,15 @@ impl<R: Real> Curve<R> {
                 let half_log_k = (one - h) * l * R::exactly(0.5);
                 Shape::Tangent { u: -(-half_log_k).expm1() / p }
             }
-            (Method::Hermite | Method::ThreePoint | Method::Quadratic | Method::Composite, _) => {
-                cubic(method, logs, h, p)
-            }
+            // Given coefficients do not come here: see `of_coefficients`.
+            (
+                Method::Hermite
+                | Method::ThreePoint
+                | Method::Minimax
+                | Method::Quadratic
+                | Method::Composite,
+                _,
+            ) => cubic(method, logs, h, p),
         };
         Self { h, shape }
     }
@@ -104,6 +124,9 @@ impl<R: Real> Curve<R> {
         match self.shape {
             Shape::Cubic { p, p_far, a1, a2, a3 } => {
                 one + distance * (a1 + (distance - p) * (a2 + (distance - p_far) * a3))
+            }
+            Shape::Centred { b: [b1, b2, b3] } => {
+                one - distance * (b1 - distance * (b2 - distance * b3))
             }
             Shape::Tangent { u } => {
                 let root = one - u * distance;
@@ -151,6 +174,7 @@ impl Curve<Interval> {
             }
             // (1 − hS)·(1 − 2US + U²S²)
             Shape::Tangent { u } => (two * u + h, u * (u + two * h), h * u * u),
+            Shape::Centred { b: [b1, b2, b3] } => (b1, b2, b3),
             Shape::Hyperbola { .. } => return None,
         };
         Some([b1 / h, b2 / (h * h), b3 / (h * h * h)])
@@ -166,7 +190,9 @@ impl Curve<Interval> {
 pub fn is_exact(method: Method, region: Region, exponent: f64) -> bool {
     let exact: &[f64] = match (method, region) {
         (Method::Composite, Region::Tail) | (Method::Rational | Method::Schlick, _) => &[1.0],
-        (Method::Hermite | Method::ThreePoint | Method::Composite, _) => &[1.0, 2.0, 3.0],
+        (Method::Hermite | Method::ThreePoint | Method::Minimax | Method::Composite, _) => {
+            &[1.0, 2.0, 3.0]
+        }
         (Method::Tangent, _) => &[1.0, 3.0],
         (Method::Quadratic, _) => &[1.0, 2.0],
     };

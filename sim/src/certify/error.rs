@@ -5,7 +5,7 @@
 //! w² only. c is the middle in σ and the lower end in h: where the error falls with h, as it does near
 //! h = 0, that end is where it is greatest, and nothing is lost by h at all.
 
-use hw_model::fit::{Levels, Method};
+use hw_model::fit::{FitError, Levels, Method, fit};
 
 use super::claim::{Measure, Region};
 use super::curve::{Curve, Logs, reciprocal};
@@ -82,17 +82,29 @@ pub struct OneExponent {
 
 impl OneExponent {
     /// The error of `method` at n ≥ 1.
-    #[must_use]
-    pub fn new(method: Method, n: f64, region: Region, measure: Measure, levels: Levels) -> Self {
+    ///
+    /// # Errors
+    /// When n is out of range.
+    pub fn new(
+        method: Method,
+        n: f64,
+        region: Region,
+        measure: Measure,
+        levels: Levels,
+    ) -> Result<Self, FitError> {
         let (logs, h) = (Logs::new(levels), reciprocal(n));
-        Self {
-            region,
-            measure,
-            logs,
-            h,
-            curve: Curve::new(method, region, &logs, h),
-            sloped: Curve::new(method, region, &logs, Slopes::from(h)),
-        }
+        let fitted = fit(method, n, levels)?;
+        let (curve, sloped) = match fitted.cubic() {
+            Some(cubic) if method == Method::Minimax => (
+                Curve::of_coefficients(&cubic.centred, h),
+                Curve::of_coefficients(&cubic.centred, Slopes::from(h)),
+            ),
+            _ => (
+                Curve::new(method, region, &logs, h),
+                Curve::new(method, region, &logs, Slopes::from(h)),
+            ),
+        };
+        Ok(Self { region, measure, logs, h, curve, sloped })
     }
 }
 

@@ -6,7 +6,7 @@
 //! rounding of intervals leaves no room (errors near 10⁻¹⁵, next to an n where a method is exact), the upper
 //! bound moves away from the lower one.
 
-use hw_model::fit::{Levels, Method};
+use hw_model::fit::{FitError, Levels, Method};
 use thiserror::Error;
 
 use super::claim::{Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Region, Witness};
@@ -48,11 +48,17 @@ const HALVINGS: u32 = 30;
 
 /// No enclosure was found.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error(
-    "no bound could be proved: rounding leaves no room; the levels q and g are too close to 0, to 1 or \
-     to each other"
-)]
-pub struct NotProved;
+pub enum NotProved {
+    /// The search came to the end of f64.
+    #[error(
+        "no bound could be proved: rounding leaves no room; the levels q and g are too close to 0, to 1 \
+         or to each other"
+    )]
+    NoRoom,
+    /// There is no such exponent.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+}
 
 /// Every claim about one exponent: a method on one of its regions.
 ///
@@ -68,7 +74,7 @@ pub fn claim_exponent(
         if is_exact(method, region, n) {
             return Ok(Finding::Exact);
         }
-        let error = OneExponent::new(method, n, region, measure, levels);
+        let error = OneExponent::new(method, n, region, measure, levels)?;
         enclose(&error, false).map(Finding::Enclosed)
     };
     let absolute = find(Measure::Absolute)?;
@@ -124,7 +130,7 @@ fn enclose(error: &impl ErrorFunction, every: bool) -> Result<Enclosure, NotProv
             Proof::NoRoom => attempt += 1,
         }
     }
-    Err(NotProved)
+    Err(NotProved::NoRoom)
 }
 
 enum Proof {

@@ -16,7 +16,7 @@ use super::{Out, Outcome};
     after_help = "Example: blysk coefficients --method hermite --exponents 2.5,64,1e9 --format csv"
 )]
 pub(super) struct Args {
-    /// hermite, three_point, tangent, quadratic, rational, composite or schlick.
+    /// hermite, three_point, tangent, minimax, quadratic, rational, composite or schlick.
     #[arg(long, value_name = "METHOD")]
     method: Method,
     /// Such as 1..=256, 1,2,8,64 or 2.5,1e6.

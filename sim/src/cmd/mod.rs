@@ -8,8 +8,12 @@ mod check;
 mod claims;
 mod coefficients;
 mod configuration;
+mod design;
 mod document;
+mod pareto;
+mod pareto_tables;
 mod presets;
+mod refine;
 mod report;
 mod rom;
 mod rtl;
@@ -45,8 +49,11 @@ enum Command {
     Claims(claims::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
+    Refine(refine::Args),
+    Design(design::Args),
     Document(document::Args),
     Stability(stability::Args),
+    Pareto(pareto::Args),
     Presets(presets::Args),
 }
 
@@ -113,8 +120,11 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),
+        Command::Refine(args) => refine::run(&args, out),
+        Command::Design(args) => design::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
+        Command::Pareto(args) => pareto::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

@@ -9,6 +9,7 @@ use hw_model::presets;
 use super::configuration::find_preset;
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
+use crate::analysis::pareto::hardware::multipliers;
 
 /// List the presets, or print one as a starting point for a configuration.
 ///
@@ -55,7 +56,7 @@ fn list(format: Format, out: &mut Out) -> anyhow::Result<()> {
             Cell::from(preset.name),
             Cell::Integer(design.datapath().rank_count() as i64),
             Cell::Integer(design.rom().bits() as i64),
-            Cell::from(multipliers(&design)),
+            Cell::from(sizes(&design)),
             Cell::from(design.config().description.clone()),
         ]);
     }
@@ -63,18 +64,7 @@ fn list(format: Format, out: &mut Out) -> anyhow::Result<()> {
 }
 
 /// The operand widths of every multiplier.
-fn multipliers(design: &Design) -> String {
-    let formats = design.datapath().formats();
-    let mut sizes = Vec::new();
-    if let Some(polynomial) = &formats.polynomial {
-        let v = polynomial.v.width();
-        let [_, _, _, c3] = polynomial.coefficients;
-        sizes.extend(
-            [c3, polynomial.t1, polynomial.t2].map(|format| format!("{}x{v}", format.width())),
-        );
-    }
-    if let Some(tail) = &formats.tail {
-        sizes.push(format!("{}x{}", tail.b.width(), formats.input.width()));
-    }
+fn sizes(design: &Design) -> String {
+    let sizes: Vec<String> = multipliers(design).iter().map(ToString::to_string).collect();
     sizes.join(" ")
 }

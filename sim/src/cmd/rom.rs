@@ -62,7 +62,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     Ok(Outcome::Good)
 }
 
-fn addresses(design: &Design, exponents: Option<&Exponents>) -> anyhow::Result<Vec<u32>> {
+/// The addresses of these exponents, or all of them.
+pub(super) fn addresses(
+    design: &Design,
+    exponents: Option<&Exponents>,
+) -> anyhow::Result<Vec<u32>> {
     let rom = design.rom();
     let Some(exponents) = exponents else { return Ok((0..rom.depth() as u32).collect()) };
     let mut addresses = Vec::new();

@@ -47,6 +47,8 @@ pub(super) fn block(design: &Design) -> String {
             FieldName::C2,
             FieldName::C3,
             FieldName::Cut,
+            FieldName::HandOver,
+            FieldName::ShiftOuter,
             FieldName::Shift,
         ]
     } else {
@@ -194,7 +196,12 @@ impl Picture<'_> {
         match self.datapath.front_end().variable {
             Some(Variable::U { drop, .. }) => {
                 words.push("x ≥ cut ?".to_owned());
-                words.push("u = (1 − x)·2^e".to_owned());
+                if self.datapath.has_two_segments() {
+                    words.push("x ≥ hand_over ?".to_owned());
+                    words.push("u = (start − x)·2^e".to_owned());
+                } else {
+                    words.push("u = (1 − x)·2^e".to_owned());
+                }
                 if drop > 0 {
                     words.push(format!("drops {drop} bits"));
                 }
@@ -213,14 +220,28 @@ impl Picture<'_> {
             // Of the wires to one box an upper one goes further to the right, so that they do not cross.
             FieldName::Cut => (1, 36.0),
             FieldName::Shift => (1, 0.0),
+            FieldName::HandOver => (1, 24.0),
+            FieldName::ShiftOuter => (1, 12.0),
             FieldName::C3 | FieldName::TailA => (2, -24.0),
             FieldName::C2 | FieldName::TailB => (2, 24.0),
             FieldName::C1 => (3, 0.0),
-            FieldName::C0 => (4, 0.0),
+            // The second segment's go with the first's.
+            _ => (4, 0.0),
         };
+        let two = self.datapath.has_two_segments()
+            && FieldName::COEFFICIENTS.contains(&name)
+            && self.datapath.is_carried(name);
         let target = self.of_rank(rank);
         let (x, top) = (target.centre() + beside, self.lanes.polynomial);
         match field.place {
+            Place::Constant { .. } | Place::Stored { .. } if two => {
+                let label = format!("{name} of two segments · {}", field.format.width());
+                self.above(y, &label, &target, beside);
+                for passed in 1..rank {
+                    let column = self.of_rank(passed);
+                    self.carried(&column, y);
+                }
+            }
             Place::Stored { .. } => {
                 self.above(y, &labelled(name.name(), field.format), &target, beside);
                 for passed in 1..rank {

@@ -128,10 +128,20 @@ pub(super) fn variable(datapath: &Datapath) -> String {
             } else {
                 format!("v = round({moved} / 2^{drop})")
             };
+            let second = if datapath.has_two_segments() {
+                format!(
+                    " The second segment answers where the polynomial does and x < hand_over: `hand_over` \
+                     then stands for `2^{}`, `shift_outer` for `shift`, and what rank 1 loads into c3, c2, c1, \
+                     c0 is c3_outer, c2_outer, c1_outer, c0_outer.",
+                    input.fraction_bits()
+                )
+            } else {
+                String::new()
+            };
             format!(
                 "The polynomial's variable is v = u = (1 − x)·2^e. In integers, with the clamped x: \
-                 `{line}`; fraction bits dropped and mode: {}. Where the polynomial does not answer it \
-                 is fed v = 0, for which the ranges hold too.",
+                 `{line}`; fraction bits dropped and mode: {}.{second} Where the polynomial does not \
+                 answer it is fed v = 0, for which the ranges hold too.",
                 rounding(drop, mode)
             )
         }

@@ -1,5 +1,6 @@
 //! Ports, parameters, status bits, and the ROM.
 
+use hw_model::config::Cut;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::quantise::decimal;
@@ -105,11 +106,27 @@ fn meaning(field: FieldName, design: &Design) -> &'static str {
         (FieldName::C2, false) => "coefficient of x²",
         (FieldName::C1, false) => "coefficient of x",
         (FieldName::C0, false) => "constant term",
+        (FieldName::C3, true) if design.config().segments > 1 => {
+            "first segment: coefficient of −u³"
+        }
+        (FieldName::C2, true) if design.config().segments > 1 => "first segment: coefficient of u²",
+        (FieldName::C1, true) if design.config().segments > 1 => "first segment: coefficient of −u",
+        (FieldName::C3Outer, _) => "second segment: coefficient of −u³",
+        (FieldName::C2Outer, _) => "second segment: coefficient of u²",
+        (FieldName::C1Outer, _) => "second segment: coefficient of −u",
+        (FieldName::C0Outer, _) => "second segment: value at hand_over",
+        (FieldName::HandOver, _) => {
+            "the least x of the first segment; u of the second counts from it"
+        }
+        (FieldName::ShiftOuter, _) => "e of the second segment, unsigned",
         (FieldName::C3, true) => "k3·2^(−3e), coefficient of −u³",
         (FieldName::C2, true) => "k2·2^(−2e), coefficient of u²",
         (FieldName::C1, true) => "k1·2^(−e), coefficient of −u",
         (FieldName::C0, true) => "value at x = 1",
         (FieldName::Cut, _) => "the least x at which the polynomial answers",
+        (FieldName::Shift, _) if design.config().cut == Cut::Balanced => {
+            "e, the greatest that keeps u below 1; unsigned"
+        }
         (FieldName::Shift, _) => "e = ⌊log2 n⌋, unsigned",
         (FieldName::TailA, _) => "A of x / (A − B·x)",
         (FieldName::TailB, _) => "B of x / (A − B·x)",

@@ -58,7 +58,10 @@ impl<'a> Reasons<'a> {
                     "cut" => {
                         "in the ROM: up, to the first x that is not below the real cut".to_owned()
                     }
-                    "shift" => "no".to_owned(),
+                    "hand_over" => {
+                        "in the ROM: up, to the first x that is not below the real point".to_owned()
+                    }
+                    "shift" | "shift_outer" => "no".to_owned(),
                     _ => "in the ROM: nearest_even".to_owned(),
                 };
             }
@@ -83,7 +86,11 @@ impl<'a> Reasons<'a> {
                 "the fraction bits of x, so that x ≥ cut is exact; integer bits for the greatest cut"
                     .to_owned()
             }
-            "shift" => format!("e is at most {}", held.greatest),
+            "hand_over" => {
+                "the fraction bits of x, so that x ≥ hand_over is exact; integer bits for the greatest"
+                    .to_owned()
+            }
+            "shift" | "shift_outer" => format!("e is at most {}", held.greatest),
             "remainder" if rank == 2 => "the upper part of x·2^k, less than D (see the divider)".to_owned(),
             "remainder" => "every remainder is less than D".to_owned(),
             "digits" => self.digits(rank, held, format),
@@ -125,7 +132,8 @@ impl<'a> Reasons<'a> {
     }
 
     fn share(&self, register: &str) -> Option<&Share> {
-        let name = if register == "v" { "u" } else { register };
+        // Both segments have the same formats.
+        let name = if register == "v" { "u" } else { register.trim_end_matches("_outer") };
         self.facts.shares.iter().find(|share| share.register == name)
     }
 

@@ -167,7 +167,7 @@ fn play(datapath: &Datapath, script: Script) -> Scenario {
     };
     let mut pipeline = Pipeline::new(datapath);
     let ran = run(&mut pipeline, stimulus, |cycle| {
-        let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
+        let shown = cycle.ranks.last().loaded;
         let held = cycle.ranks.iter().map(|rank| {
             let Signals { address, x, .. } = rank.signals;
             if rank.valid { number(address, x) } else { None }

@@ -73,8 +73,17 @@ fn the_block_diagram_shows_every_register_of_rank_0() {
         let mut found = Vec::new();
         texts(parse(&block::block(&design)).unwrap().root(), &mut found);
         for register in design.datapath().registers(0) {
+            let two = design.datapath().has_two_segments();
             let label = match register.name {
                 "status" => "no_word · 1".to_owned(),
+                // On the wire of the first segment's.
+                name if ["c3_outer", "c2_outer", "c1_outer", "c0_outer"].contains(&name) => {
+                    let first = name.trim_end_matches("_outer");
+                    format!("{first} of two segments · {}", register.format.width())
+                }
+                name if two && ["c3", "c2", "c1", "c0"].contains(&name) => {
+                    format!("{name} of two segments · {}", register.format.width())
+                }
                 name => format!("{name} · {}", register.format.width()),
             };
             let times = found.iter().filter(|(text, _)| *text == label).count();

@@ -1,6 +1,17 @@
 //! What a chart holds, whatever draws it.
 
+use super::spot::{Kind, Spot};
 use super::{Axis, PlotError};
+
+/// How large a picture is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Size {
+    /// For a column of a paper.
+    #[default]
+    Column,
+    /// For the whole width of a page.
+    Page,
+}
 
 /// How a series is marked. The strokes differ, so that curves can be told apart without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -16,6 +27,8 @@ pub enum Mark {
     DashDot,
     /// A dot at each point, and no line: for measurements with nothing in between.
     Points,
+    /// A thin grey line that stands back: it only says what belongs together.
+    Thin,
 }
 
 impl Mark {
@@ -34,7 +47,7 @@ impl Mark {
 /// One curve. Its colour follows from its place in the chart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// The name in the legend.
+    /// The name in the legend, which has none for an empty one.
     pub name: String,
     /// The points, in the order in which a line joins them.
     pub points: Vec<(f64, f64)>,
@@ -90,6 +103,12 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// Horizontal lines to hold the curves against.
     pub reference_lines: Vec<ReferenceLine>,
+    /// Points with names, drawn over the curves.
+    pub spots: Vec<Spot>,
+    /// The kinds they are of.
+    pub kinds: Vec<Kind>,
+    /// How large it is.
+    pub size: Size,
 }
 
 /// The ends of both axes.
@@ -110,6 +129,9 @@ impl Chart {
             y_axis,
             series: Vec::new(),
             reference_lines: Vec::new(),
+            spots: Vec::new(),
+            kinds: Vec::new(),
+            size: Size::Column,
         }
     }
 
@@ -123,9 +145,10 @@ impl Chart {
         Ok(super::draw::svg(self, bounds))
     }
 
-    /// Every point of every series.
+    /// Every point of every series, and those with names.
     pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
-        self.series.iter().flat_map(|series| series.points.iter().copied())
+        let named = self.spots.iter().map(|spot| spot.at);
+        self.series.iter().flat_map(|series| series.points.iter().copied()).chain(named)
     }
 
     pub(super) fn bounds(&self) -> Result<Bounds, PlotError> {
@@ -151,7 +174,10 @@ impl Chart {
                 check_finite(&series.name, x, y)?;
             }
         }
-        self.reference_lines.iter().try_for_each(|line| check_finite(&line.label, 0.0, line.value))
+        self.reference_lines
+            .iter()
+            .try_for_each(|line| check_finite(&line.label, 0.0, line.value))?;
+        self.spots.iter().try_for_each(|spot| check_finite(&spot.label, spot.at.0, spot.at.1))
     }
 }
 

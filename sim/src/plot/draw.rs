@@ -1,4 +1,4 @@
-//! From a chart to SVG: the only file that knows the plotting crate.
+//! From a chart to SVG: with `spots.rs` the only file that knows the plotting crate.
 
 use std::sync::Arc;
 
@@ -12,12 +12,14 @@ use kuva::render::render::render_multiple;
 use super::axis::{Scale, tick_label};
 use super::chart::{Bounds, Chart, Mark, Series};
 use super::reference::fits_on_line;
-use super::{style, words};
+use super::{spots, style, words};
 
 /// Draws a chart whose points were checked and whose axes have these ends.
 pub(super) fn svg(chart: &Chart, bounds: Bounds) -> String {
     let plots: Vec<Plot> = chart.series.iter().enumerate().map(drawn).collect();
-    let mut entries: Vec<LegendEntry> = chart.series.iter().enumerate().flat_map(entry).collect();
+    let named = |(index, series)| entry(chart, index, series);
+    let mut entries: Vec<LegendEntry> = chart.series.iter().enumerate().flat_map(named).collect();
+    entries.extend(spots::entries(chart));
     let mut layout = labels(chart, axes(chart, bounds, Layout::auto_from_plots(&plots)));
     for line in &chart.reference_lines {
         let mut rule = DrawnLine::horizontal(line.value)
@@ -26,11 +28,14 @@ pub(super) fn svg(chart: &Chart, bounds: Bounds) -> String {
         if fits_on_line(chart, bounds, line) {
             rule = rule.with_label(plain(&line.label));
         } else {
-            entries.extend(rule_entry(&line.label));
+            entries.extend(rule_entry(chart, &line.label));
         }
         layout = layout.with_reference_line(rule);
     }
-    let mut scene = render_multiple(plots, fitted(legend(layout, entries)));
+    let layout = fitted(chart, legend(layout, entries));
+    let computed = ComputedLayout::from_layout(&layout);
+    let mut scene = render_multiple(plots, layout);
+    spots::draw(chart, &computed, &mut scene);
     scene.height = (scene.height - style::FOOT).ceil();
     let view = format!("<svg viewBox=\"0 0 {} {}\" ", scene.width, scene.height);
     // The backend leaves out the view box, without which a page cannot resize the picture.
@@ -40,7 +45,7 @@ pub(super) fn svg(chart: &Chart, bounds: Bounds) -> String {
 
 fn axes(chart: &Chart, bounds: Bounds, layout: Layout) -> Layout {
     let layout = layout
-        .with_width(style::WIDTH)
+        .with_width(style::size(chart.size).0)
         .with_font_family(style::FONT_FAMILY)
         .with_tick_size(style::SMALL_SIZE)
         .with_body_size(style::SMALL_SIZE)
@@ -62,7 +67,7 @@ fn axes(chart: &Chart, bounds: Bounds, layout: Layout) -> Layout {
 }
 
 fn labels(chart: &Chart, layout: Layout) -> Layout {
-    let (wide, high) = (style::TEXT_WIDTH, style::AREA_HEIGHT);
+    let (wide, high) = (style::text_width(chart.size), style::size(chart.size).1);
     let layout = layout
         .with_title(broken(&chart.title, style::TITLE_SIZE, wide))
         .with_title_size(style::TITLE_SIZE)
@@ -93,17 +98,18 @@ fn legend(layout: Layout, entries: Vec<LegendEntry>) -> Layout {
 
 /// The layout with the height that leaves the drawing area its own: lines of text add to the
 /// picture and take nothing from the curves.
-fn fitted(layout: Layout) -> Layout {
-    let trial = 2.0 * style::AREA_HEIGHT;
+fn fitted(chart: &Chart, layout: Layout) -> Layout {
+    let height = style::size(chart.size).1;
+    let trial = 2.0 * height;
     let layout = layout.with_height(trial);
     let area = ComputedLayout::from_layout(&layout).plot_height();
-    layout.with_height(trial - area + style::AREA_HEIGHT)
+    layout.with_height(trial - area + height)
 }
 
 fn drawn((index, series): (usize, &Series)) -> Plot {
     let points = series.points.iter().copied();
-    let colour = style::colour(index);
     let mark = series.visible_mark();
+    let colour = style::colour_of(index, mark);
     if mark == Mark::Points {
         return ScatterPlot::new().with_data(points).with_color(colour).with_size(2.5).into();
     }
@@ -119,30 +125,34 @@ fn drawn((index, series): (usize, &Series)) -> Plot {
         .into()
 }
 
-fn entry((index, series): (usize, &Series)) -> Vec<LegendEntry> {
+fn entry(chart: &Chart, index: usize, series: &Series) -> Vec<LegendEntry> {
+    if series.name.is_empty() {
+        return Vec::new();
+    }
     let mark = series.visible_mark();
     let shape = match mark {
         Mark::Points => LegendShape::Circle,
         _ => LegendShape::Line,
     };
     let dashes = style::legend_dashes(mark);
-    wrapped_entry(&series.name, style::colour(index), shape, dashes)
+    wrapped_entry(chart, &series.name, style::colour_of(index, mark), shape, dashes)
 }
 
-fn rule_entry(label: &str) -> Vec<LegendEntry> {
+fn rule_entry(chart: &Chart, label: &str) -> Vec<LegendEntry> {
     let dashes = Some(style::REFERENCE_DASHES);
-    wrapped_entry(label, style::REFERENCE_COLOUR, LegendShape::Line, dashes)
+    wrapped_entry(chart, label, style::REFERENCE_COLOUR, LegendShape::Line, dashes)
 }
 
 /// A name too long for the width goes on in entries of its own, which have no sample. The backend
 /// then has one column, so that they stand below one another.
-fn wrapped_entry(
+pub(super) fn wrapped_entry(
+    chart: &Chart,
     name: &str,
     colour: &str,
     shape: LegendShape,
     dashes: Option<&str>,
 ) -> Vec<LegendEntry> {
-    let lines = words::lines(&plain(name), style::SMALL_SIZE, style::LEGEND_WIDTH);
+    let lines = words::lines(&plain(name), style::SMALL_SIZE, style::legend_width(chart.size));
     let first = LegendEntry {
         label: String::new(),
         color: colour.to_owned(),

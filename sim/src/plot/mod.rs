@@ -2,7 +2,7 @@
 //!
 //! A [`Chart`] is plain data: axes, series, reference lines. It becomes an SVG with
 //! [`Chart::to_svg`], and an SVG becomes a PNG with [`svg_to_png`]. The crates that do the drawing
-//! are named only in `draw.rs` and `raster.rs`, so that either can be replaced without touching a
+//! are named only in `draw.rs`, `spots.rs` and `raster.rs`, so that either can be replaced without touching a
 //! caller.
 //!
 //! A picture is a function of its data: no system fonts, no clock, no random identifiers. The same
@@ -13,17 +13,21 @@ mod chart;
 mod draw;
 mod error;
 mod figures;
+mod placement;
 mod raster;
 mod reference;
+mod spot;
+mod spots;
 mod style;
 #[cfg(test)]
 mod tests;
 mod words;
 
 pub use axis::{Axis, Scale};
-pub use chart::{Chart, Mark, ReferenceLine, Series};
+pub use chart::{Chart, Mark, ReferenceLine, Series, Size};
 pub use error::PlotError;
 pub use figures::{Curve, angle_grid, error_versus_exponent, intensity_versus_angle};
 #[cfg(test)]
 pub(crate) use raster::parse;
 pub use raster::svg_to_png;
+pub use spot::{Kind, Shape, Spot};

@@ -4,7 +4,7 @@
 //! written above the line at the right end; the legend takes it otherwise.
 
 use super::chart::{Bounds, Chart, ReferenceLine};
-use super::style::{AREA_HEIGHT, SMALL_SIZE, WIDTH};
+use super::style::{self, SMALL_SIZE};
 use super::words;
 
 /// Samples of a curve between two of its points, so that a long straight piece is seen too.
@@ -13,7 +13,8 @@ const BETWEEN: u32 = 16;
 /// True when the label can stand on its line.
 pub(super) fn fits_on_line(chart: &Chart, bounds: Bounds, line: &ReferenceLine) -> bool {
     // In fractions of the drawing area, which takes at least 0.8 of the width.
-    let area = (0.8 * WIDTH, AREA_HEIGHT);
+    let (width, height) = style::size(chart.size);
+    let area = (0.8 * width, height);
     let width = (words::width(&line.label, SMALL_SIZE) + 12.0) / area.0;
     let height = (f64::from(SMALL_SIZE) + 10.0) / area.1;
     let foot = chart.y_axis.fraction(line.value, bounds.y);

@@ -1,19 +1,27 @@
 //! Sizes, colours and strokes.
 //!
-//! The sizes are chosen for a column of a paper, 8.5 cm wide: there the smallest text stands at
-//! about 6 pt. The colours are those of Okabe and Ito, which people with any common colour
+//! The sizes are chosen for a column of a paper, 8.5 cm wide, or for its whole width: there the smallest
+//! text stands at about 6 pt. The colours are those of Okabe and Ito, which people with any common colour
 //! vision deficiency can tell apart; their yellow is left out, as it cannot be seen on white.
 
-use super::Mark;
+use super::{Mark, Size};
 
-/// Width of a picture, in SVG units.
-pub(super) const WIDTH: f64 = 480.0;
-/// Height of the drawing area between the axes; title and legend come on top of it.
-pub(super) const AREA_HEIGHT: f64 = 230.0;
+/// Width of a picture, in SVG units, and height of the drawing area between the axes; title and legend
+/// come on top of it.
+pub(super) const fn size(size: Size) -> (f64, f64) {
+    match size {
+        Size::Column => (480.0, 230.0),
+        Size::Page => (720.0, 400.0),
+    }
+}
 /// The part of the width that title and axis label may take.
-pub(super) const TEXT_WIDTH: f64 = 370.0;
+pub(super) const fn text_width(of: Size) -> f64 {
+    size(of).0 - 110.0
+}
 /// The part of the width that one name in the legend may take.
-pub(super) const LEGEND_WIDTH: f64 = 330.0;
+pub(super) const fn legend_width(of: Size) -> f64 {
+    size(of).0 - 150.0
+}
 /// Free space the backend leaves at the foot of a picture, and which is cut off.
 pub(super) const FOOT: f64 = 18.0;
 
@@ -41,19 +49,28 @@ pub(super) const fn colour(index: usize) -> &'static str {
     COLOURS[index % COLOURS.len()]
 }
 
+/// The same, where its mark has none of its own.
+pub(super) const fn colour_of(index: usize, mark: Mark) -> &'static str {
+    match mark {
+        Mark::Thin => "#999999",
+        _ => colour(index),
+    }
+}
+
 /// Width of a line: whole lines are wider, as broken ones are often drawn over them.
 pub(super) const fn stroke_width(mark: Mark) -> f64 {
     match mark {
         Mark::Solid => 2.2,
         Mark::Dashed | Mark::DashDot | Mark::Points => 1.8,
         Mark::Dotted => 2.2,
+        Mark::Thin => 0.9,
     }
 }
 
 /// The dashes of a mark on the curve, as SVG writes them.
 pub(super) const fn dashes(mark: Mark) -> Option<&'static str> {
     match mark {
-        Mark::Solid | Mark::Points => None,
+        Mark::Solid | Mark::Points | Mark::Thin => None,
         Mark::Dashed => Some("7 3"),
         Mark::Dotted => Some("2 2.5"),
         Mark::DashDot => Some("7 3 2 3"),
@@ -63,7 +80,7 @@ pub(super) const fn dashes(mark: Mark) -> Option<&'static str> {
 /// The same in the legend, shorter so that the sample shows the pattern and not only its start.
 pub(super) const fn legend_dashes(mark: Mark) -> Option<&'static str> {
     match mark {
-        Mark::Solid | Mark::Points => None,
+        Mark::Solid | Mark::Points | Mark::Thin => None,
         Mark::Dashed => Some("5 2"),
         Mark::Dotted => Some("2 1.5"),
         Mark::DashDot => Some("5 2 2 3"),

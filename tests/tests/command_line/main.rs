@@ -6,9 +6,12 @@
 mod certify;
 mod check;
 mod coefficients;
+mod design;
 mod help;
 mod output;
+mod pareto;
 mod presets;
+mod refine;
 mod report;
 mod report_against_brute_force;
 mod rom;

@@ -8,7 +8,7 @@ use std::process::Stdio;
 use blysk_tests::bench;
 use blysk_tests::cli::CONFIGURATIONS;
 
-const PRESETS: [&str; 5] = ["paper", "blooming", "tangent", "compact", "schlick"];
+const PRESETS: [&str; 6] = ["paper", "blooming", "tangent", "compact", "precise", "schlick"];
 
 /// Columns of a terminal that a table may take.
 const WIDTH: usize = 100;
@@ -48,6 +48,8 @@ fn tables_fit_a_terminal() {
     for preset in &presets {
         commands.push(format!("stability {preset} --part edges"));
     }
+    let odd: Vec<String> = (1..80).step_by(2).map(|n| n.to_string()).collect();
+    commands.push(format!("pareto --input UQ1.10 --exponents {} --rounds 15", odd.join(",")));
     commands.push("stability --part seams --preset compact --exponents 1,100".to_owned());
     for command in &commands {
         narrow(command, &bench.good(command));
@@ -62,6 +64,7 @@ fn tables_fit_a_terminal() {
         "rom",
         "document",
         "stability",
+        "pareto",
         "presets",
     ] {
         let command = format!("{command} --help");

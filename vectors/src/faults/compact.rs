@@ -8,7 +8,7 @@
 //!    corners are tried, and those that kill most are added.
 //! 3. What still survives is tried on every input. A fault that survives that is equivalent.
 
-use std::mem::replace;
+use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 use hw_model::datapath::front_end::FrontEnd;
@@ -191,12 +191,11 @@ pub fn exhaust(
     wanted: Mask,
     front_end: FrontEnd,
 ) -> impl Iterator<Item = (i64, Mask)> {
-    let (mut seen, mut masks) = (vec![false; 1 << Mask::BITS], Vec::new());
-    seen[0] = true;
+    let (mut seen, mut masks) = (HashSet::from([0]), Vec::new());
     chunks(0..=front_end.greatest).flat_map(move |xs| {
         row.killed(&xs, wanted, &mut masks);
         let sorts = xs.into_iter().zip(masks.iter().copied());
-        let is_new = |&(_, mask): &(i64, Mask)| !replace(&mut seen[usize::from(mask)], true);
+        let is_new = |&(_, mask): &(i64, Mask)| seen.insert(mask);
         sorts.filter(is_new).collect::<Vec<_>>()
     })
 }

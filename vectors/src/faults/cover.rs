@@ -7,11 +7,30 @@ use super::rows::Mask;
 
 /// Indices of the fewest masks that together have every bit of `wanted`; each bit must be in some mask.
 ///
-/// Exact: breadth first over the sets of bits that can be had with one mask, with two, and so on; there
+/// Exact. Bits that no useful mask joins are looked for apart (each segment of a polynomial has its own). In each
+/// group, breadth first over the sets of bits that can be had with one mask, with two, and so on; there
 /// are at most 2^16. Some mask must bring the rarest bit that a set still lacks, so only those that have it
 /// are added. Of equally small choices the first found is taken, which the order decides.
 #[must_use]
 pub fn fewest(masks: &[Mask], wanted: Mask) -> Vec<usize> {
+    let useful = undominated(masks, wanted);
+    let groups = groups(useful.iter().map(|&index| masks[index] & wanted));
+    groups.into_iter().flat_map(|group| fewest_of_group(masks, group)).collect()
+}
+
+/// The masks joined where they have a bit in common.
+fn groups(masks: impl Iterator<Item = Mask>) -> Vec<Mask> {
+    let mut groups: Vec<Mask> = Vec::new();
+    for mask in masks {
+        let (joined, apart): (Vec<Mask>, Vec<Mask>) =
+            groups.into_iter().partition(|group| group & mask != 0);
+        groups = apart;
+        groups.push(joined.into_iter().fold(mask, |union, group| union | group));
+    }
+    groups
+}
+
+fn fewest_of_group(masks: &[Mask], wanted: Mask) -> Vec<usize> {
     let useful = undominated(masks, wanted);
     let rarest = rarest_first(masks, &useful, wanted);
     // How each set was first reached: the set before it, and the mask that was added.
@@ -89,8 +108,13 @@ mod tests {
     proptest! {
         #[test]
         fn no_smaller_choice_has_everything(
-            masks in prop::collection::vec(any::<u16>(), 1..10), some in any::<u16>(),
+            masks in prop::collection::vec(any::<u32>(), 1..10),
+            some in any::<u32>(),
+            sparse in any::<bool>(),
         ) {
+            // Few bits, so that groups come about.
+            let thin = |mask: Mask| if sparse { mask & (mask >> 7) & 0x00ff_1fff } else { mask & 0xffff };
+            let masks: Vec<Mask> = masks.into_iter().map(thin).collect();
             let all = masks.iter().fold(0, |set, mask| set | mask);
             for wanted in [all, all & some] {
                 let choice = fewest(&masks, wanted);

@@ -239,12 +239,20 @@ impl Faulty<'_> {
                 let step = -before.row.get(FieldName::Shift).min(1);
                 self.with_field(FieldName::Shift, step, before, held);
             }
+            Logic::ShiftOuterMore => self.with_field(FieldName::ShiftOuter, 1, before, held),
+            Logic::HandOverExclusive => {
+                let hand_over = before.row.get(FieldName::HandOver);
+                if held.region == Region::Polynomial && held.x == hand_over && hand_over > 0 {
+                    held.row = before.row.in_outer();
+                    held.v = 0;
+                }
+            }
             Logic::NoInputClamp => *held = path.advance(self.rank, before),
             Logic::NegativeAsUnsigned => {
                 let x = path.formats().input.to_word(before.x) as i64;
                 *held = path.advance(self.rank, &Signals { x, ..*before });
             }
-            Logic::RegionsSwapped => self.swap_regions(held),
+            Logic::RegionsSwapped => self.swap_regions(before, held),
             Logic::NoClampBelow if held.region == Region::Polynomial => {
                 held.intensity = before.t3.min(held.intensity);
             }
@@ -262,15 +270,15 @@ impl Faulty<'_> {
         }
     }
 
-    /// The rank, with a field of the row as the logic takes it; the row itself stays.
+    /// The rank, with a field of the row as the logic takes it; in the row itself it stays.
     fn with_field(&self, field: FieldName, step: i64, before: &Signals, held: &mut Signals) {
         let mut row = before.row;
         row.set(field, row.get(field) + step);
         *held = self.path().advance(self.rank, &Signals { row, ..*before });
-        held.row = before.row;
+        held.row.set(field, before.row.get(field));
     }
 
-    fn swap_regions(&self, held: &mut Signals) {
+    fn swap_regions(&self, before: &Signals, held: &mut Signals) {
         let front_end = self.model.datapath.front_end();
         // Neither is a matter of the cut.
         if [Status::NO_WORD, Status::FACING_AWAY].iter().any(|flag| held.status.contains(*flag)) {
@@ -282,8 +290,14 @@ impl Faulty<'_> {
             region if region == other => Region::Polynomial,
             region => region,
         };
-        let (x, shift) = (i128::from(held.x), held.row.shift());
-        held.v = front_end.variable(x, held.region, shift) as i64;
+        let (x, row) = (i128::from(held.x), &before.row);
+        let hand_over = i128::from(row.get(FieldName::HandOver));
+        let (start, shift, row) = match front_end.is_outer(x, held.region, hand_over) {
+            true => (hand_over, row.shift_outer(), row.in_outer()),
+            false => (front_end.one.into(), row.shift(), *row),
+        };
+        held.row = row;
+        held.v = front_end.variable(x, held.region, start, shift) as i64;
         held.tail_x = front_end.tail_x(held.x, held.region);
     }
 

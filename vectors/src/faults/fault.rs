@@ -72,6 +72,10 @@ pub enum Logic {
     ShiftMore,
     /// e is 1 less in every row that has one.
     ShiftLess,
+    /// The first segment answers for x > hand_over instead of x ≥ hand_over.
+    HandOverExclusive,
+    /// The second segment's shift is 1 more in every row.
+    ShiftOuterMore,
     /// x above 1 is not clamped.
     NoInputClamp,
     /// The sign bit of x counts as its highest bit.
@@ -175,6 +179,8 @@ impl fmt::Display for Logic {
             Self::CutExclusive => "cut_exclusive",
             Self::ShiftMore => "shift+1",
             Self::ShiftLess => "shift-1",
+            Self::HandOverExclusive => "hand_over_exclusive",
+            Self::ShiftOuterMore => "shift_outer+1",
             Self::NoInputClamp => "no_input_clamp",
             Self::NegativeAsUnsigned => "negative_as_unsigned",
             Self::RegionsSwapped => "regions_swapped",

@@ -8,7 +8,7 @@ use hw_model::rounding::Rounding;
 use super::fault::{DataRegister, Defect, Fault, FieldFault, Logic, RoundingLine};
 
 /// The faults of one row: each stored field one unit up and one down, where its format holds that.
-/// At most 16.
+/// At most 28.
 #[must_use]
 pub fn field_faults(datapath: &Datapath, address: u32) -> Vec<FieldFault> {
     let Some(row) = datapath.rom().row(address) else {
@@ -93,6 +93,9 @@ fn logic(datapath: &Datapath) -> Vec<Logic> {
     }
     if datapath.rom().layout().field(FieldName::Shift).is_some() {
         list.extend([Logic::ShiftMore, Logic::ShiftLess]);
+    }
+    if datapath.has_two_segments() {
+        list.extend([Logic::HandOverExclusive, Logic::ShiftOuterMore]);
     }
     if datapath.divider().is_some() {
         list.extend([Logic::NoQuotientClamp, Logic::DigitMissing]);

@@ -8,7 +8,7 @@ use super::list::field_faults;
 use super::screen::compare;
 
 /// A set of a row's faults: bit k is the k-th of [`RowFaults::faults`].
-pub type Mask = u16;
+pub type Mask = u32;
 
 /// The faults of one row, and what its hardware answers under each of them.
 #[derive(Debug)]
@@ -45,8 +45,8 @@ impl<'a> RowFaults<'a> {
     /// The set of all of them.
     #[must_use]
     pub fn all(&self) -> Mask {
-        // At most 16 faults: 8 fields, up and down.
-        ((1_u32 << self.faults.len()) - 1) as Mask
+        // At most 28 faults: 14 fields, up and down.
+        (1 << self.faults.len()) - 1
     }
 
     /// The set of those of one field.
@@ -85,6 +85,11 @@ impl<'a> RowFaults<'a> {
         match fault.field {
             FieldName::Cut => low <= cut && cut - 1 <= high,
             FieldName::TailA | FieldName::TailB => low < cut,
+            FieldName::C3Outer
+            | FieldName::C2Outer
+            | FieldName::C1Outer
+            | FieldName::C0Outer
+            | FieldName::ShiftOuter => high >= cut && low < self.golden.get(FieldName::HandOver),
             _ => high >= cut,
         }
     }

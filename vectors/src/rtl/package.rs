@@ -137,6 +137,7 @@ fn parts(design: &Design) -> Section {
         .integer("HAS_POLYNOMIAL", i64::from(datapath.stages().is_some()))
         .integer("HAS_TAIL", i64::from(datapath.divider().is_some()))
         .integer("CENTRED", i64::from(design.config().form == Form::Centred))
+        .integer("SEGMENTS", if datapath.has_two_segments() { 2 } else { 1 })
         .integer("RANKS", datapath.rank_count() as i64)
 }
 
@@ -180,8 +181,14 @@ fn fields(datapath: &Datapath) -> Section {
         };
         let format = field.map(|field| field.format);
         let section = match name {
-            FieldName::Cut | FieldName::Shift => section.width(&upper, format),
-            _ => section.format(&upper, format),
+            FieldName::C3
+            | FieldName::C2
+            | FieldName::C1
+            | FieldName::C0
+            | FieldName::TailA
+            | FieldName::TailB => section.format(&upper, format),
+            // No sign, or the first segment's.
+            _ => section.width(&upper, format),
         };
         section
             .integer(format!("{upper}_STORED"), stored)
@@ -192,13 +199,17 @@ fn fields(datapath: &Datapath) -> Section {
 
 fn front_end(datapath: &Datapath) -> Section {
     let x = datapath.tail_x_format().width();
-    let cut = datapath.formats().cut.map_or(1, QFormat::width);
+    let formats = datapath.formats();
+    let width = |format: Option<QFormat>| format.map_or(1, QFormat::width);
+    let shift = width(formats.shift).max(width(formats.shift_outer));
     let (up, drop) = match datapath.front_end().variable {
         Some(Variable::U { up, drop, .. }) => (up, drop),
         Some(Variable::X) | None => (0, 0),
     };
     Section::new("Front end")
-        .integer("CUT_COMPARE_WIDTH", x.max(cut))
+        .integer("CUT_COMPARE_WIDTH", x.max(width(formats.cut)))
+        .integer("HAND_OVER_COMPARE_WIDTH", x.max(width(formats.hand_over)))
+        .integer("SHIFT_COMMON_WIDTH", shift + 1)
         .integer("U_UP", up)
         .integer("U_DROP", drop)
         .rounding("U", datapath.front_end().rounding().unwrap_or(Rounding::Floor))
@@ -209,7 +220,14 @@ fn polynomial(design: &Design) -> Section {
     let formats = datapath.formats().polynomial;
     let of = |get: fn(&PolynomialFormats) -> QFormat| formats.as_ref().map(get);
     let exceeds = of(|f| f.t3).is_some_and(|t3| t3.max_bits() > datapath.output_one());
-    let mut section = Section::new("Polynomial")
+    let carried = |section: Section, name: FieldName| {
+        let name_carried = format!("{}_CARRIED", name.name().to_uppercase());
+        section.integer(name_carried, i64::from(datapath.is_carried(name)))
+    };
+    let mut section = FieldName::COEFFICIENTS
+        .into_iter()
+        .rev()
+        .fold(Section::new("Polynomial"), carried)
         .width("V", of(|f| f.v))
         .format("T1", of(|f| f.t1))
         .format("T2", of(|f| f.t2))

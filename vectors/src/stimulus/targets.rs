@@ -141,7 +141,9 @@ fn candidates(datapath: &Datapath, address: u32) -> Vec<Vec<i64>> {
         None => greatest + 1,
     };
     let mut dice = Dice::new(address.into());
-    let parts = [0..=cut - 1, cut..=greatest];
+    // 0 with one segment, so that its part is empty.
+    let hand_over = datapath.row(address).get(FieldName::HandOver).clamp(cut, greatest + 1);
+    let parts = [0..=cut - 1, cut..=hand_over - 1, hand_over..=greatest];
     let filled = parts.into_iter().filter(|part| !part.is_empty());
     filled.map(|part| of_part(part, count, &mut dice)).collect()
 }

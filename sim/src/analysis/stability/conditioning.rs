@@ -212,7 +212,9 @@ fn widths(
         quotient_bits_per_stage: 1,
         multiplier_operand_bits: None,
         error_budget_ulp: FAITHFUL_ULP,
+        segments: 1,
         widths: Default::default(),
+        coefficient_steps: Vec::new(),
     };
     let mut row = Widths {
         method,

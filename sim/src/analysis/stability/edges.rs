@@ -248,6 +248,12 @@ pub(super) fn cases(design: &Design, address: u32) -> Vec<(&'static str, i64)> {
             all.extend([("one ulp below the cut", cut - 1), ("the cut", cut)]);
             all.push(("one ulp above the cut", cut + 1));
         }
+        if row.outer.is_some() {
+            all.extend([
+                ("one ulp below the hand-over", row.hand_over - 1),
+                ("the hand-over", row.hand_over),
+            ]);
+        }
     }
     all.extend([
         ("one ulp below 1", one - 1),

@@ -8,11 +8,12 @@
 //! An image has 8 bits: the intensity is rounded to 0..=255, and the largest step of that between
 //! neighbouring x is what the finest gradient on a screen would show.
 
-use hw_model::datapath::Block;
 use hw_model::datapath::front_end::Region;
+use hw_model::datapath::{Block, Datapath};
 use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::quantise::real;
+use hw_model::rom::FieldName;
 use multiversion::multiversion;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -112,7 +113,10 @@ pub fn seam_report(design: &Design, addresses: &[u32], progress: &dyn Progress) 
             let evaluate = |xs: &[i64], block: &mut Block| {
                 design.datapath().evaluate_block(address, xs, block);
             };
-            let scan = scan(evaluate, first, last, design.config().output.fraction_bits());
+            let fraction = design.config().output.fraction_bits();
+            let hand_over = design.datapath().row(address).get(FieldName::HandOver);
+            let mut scan = scan(evaluate, first, last, fraction);
+            scan.see_segments(design.datapath(), address, hand_over, (first, last));
             progress.advance(scan.pairs);
             scan
         })
@@ -167,7 +171,7 @@ fn hand_over(design: &Design, address: u32, seam: &Seam) -> HandOver {
     let rise = phong(n, x(seam.x)) - phong(n, x(seam.x - 1));
     HandOver {
         n,
-        from: seam.from.name(),
+        from: if seam.from == seam.to { "second segment" } else { seam.from.name() },
         to: seam.to.name(),
         x_bits: seam.x,
         x: x(seam.x),
@@ -309,6 +313,35 @@ impl Scan {
     }
 }
 
+impl Scan {
+    /// A hand-over between segments is within the polynomial's region, and is looked at by itself.
+    fn see_segments(
+        &mut self,
+        datapath: &Datapath,
+        address: u32,
+        hand_over: i64,
+        (first, last): (i64, i64),
+    ) {
+        // The pair whose greater x it is belongs to one piece only.
+        if hand_over <= first || hand_over > last {
+            return;
+        }
+        let [below, above] = [hand_over - 1, hand_over].map(|x| datapath.evaluate(address, x));
+        if below.region == Region::Polynomial && above.region == Region::Polynomial {
+            let fraction = datapath.formats().output.fraction_bits();
+            let at = self.hand_overs.partition_point(|seam| seam.x < hand_over);
+            let seam = Seam {
+                from: below.region,
+                to: above.region,
+                x: hand_over,
+                jump: above.intensity - below.intensity,
+                image_step: byte(above.intensity, fraction) - byte(below.intensity, fraction),
+            };
+            self.hand_overs.insert(at, seam);
+        }
+    }
+}
+
 /// An intensity as an image has it: 0 to 255, rounded to the nearest, a tie up.
 fn byte(intensity: i64, fraction: u32) -> i64 {
     let scaled = i128::from(intensity) * WHITE;
@@ -322,7 +355,7 @@ struct Differences {
 }
 
 /// Compiled for the vector widths named here, the machine's own chosen at run time.
-#[multiversion(targets("x86_64+avx2", "x86_64+avx512f+avx512dq+avx512vl"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn differences(ys: &[i64]) -> Differences {
     let mut found = Differences { least: 0, greatest: 0, falls: 0 };
     for (below, above) in ys.iter().zip(&ys[1..]) {

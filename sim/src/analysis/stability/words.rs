@@ -31,13 +31,17 @@ pub struct Word {
     pub holds: bool,
 }
 
-const COEFFICIENTS: [FieldName; 6] = [
+const COEFFICIENTS: [FieldName; 10] = [
     FieldName::C3,
     FieldName::C2,
     FieldName::C1,
     FieldName::C0,
     FieldName::TailA,
     FieldName::TailB,
+    FieldName::C3Outer,
+    FieldName::C2Outer,
+    FieldName::C1Outer,
+    FieldName::C0Outer,
 ];
 
 /// Every coefficient of the ROM at the edges of its format, at these addresses.
@@ -125,7 +129,8 @@ fn narrowed(design: &Design, name: FieldName, format: QFormat) -> Option<Word> {
         FieldName::C0 => &mut widths.c0,
         FieldName::TailA => &mut widths.tail_a,
         FieldName::TailB => &mut widths.tail_b,
-        FieldName::Cut | FieldName::Shift => return None,
+        // Those of a second segment share the first's formats; the others are derived.
+        _ => return None,
     } = Some(narrower);
     let refusal = Design::new(config).err();
     Some(Word {

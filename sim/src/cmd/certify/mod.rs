@@ -43,7 +43,7 @@ use crate::certify::search::{claim_every_exponent, claim_exponent};
 pub(super) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// hermite, three_point, tangent, quadratic, rational, composite, schlick, or all
+    /// hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick, or all
     /// [default: hermite with --all-real-n, else all].
     #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"])]
     method: Option<Methods>,
@@ -170,11 +170,12 @@ fn claim(args: &Args) -> anyhow::Result<Claim> {
 /// A tail reaches to x = 0 for every n, and has no bounded box: epicentres only.
 fn every_exponent(methods: Option<&Methods>, levels: Levels) -> anyhow::Result<Claim> {
     let methods = methods.map_or(&[Method::Hermite][..], |methods| &methods.0);
-    let on_epicentre = |&&method: &&Method| Region::of(method).contains(&Region::Epicentre);
-    let chosen: Vec<Method> = methods.iter().filter(on_epicentre).copied().collect();
+    let formula = |&&method: &&Method| Region::has_formula_of_n(method);
+    let chosen: Vec<Method> = methods.iter().filter(formula).copied().collect();
     anyhow::ensure!(
         !chosen.is_empty(),
-        "--all-real-n: rational is made for the tail; choose a method that is made for the epicentre"
+        "--all-real-n: rational is made for the tail and not for the epicentre, and minimax has no formula in \
+         n; choose another method"
     );
     let claims = chosen
         .into_par_iter()

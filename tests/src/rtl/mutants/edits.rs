@@ -102,10 +102,17 @@ fn logic(logic: Logic) -> Option<Change> {
     let clamp = |right: &str, wrong: &str| Some(change("blysk_clamp.sv", right, wrong));
     match logic {
         Logic::CutExclusive => front_end("'(x) >= ", "'(x) > "),
-        Logic::ShiftMore => front_end("<< shift_i;", "<< shift_i << 1;"),
+        Logic::ShiftMore => front_end("SHIFT_BITS'(shift_i)", "SHIFT_BITS'(shift_i) + 1'b1"),
         Logic::ShiftLess => {
-            front_end("<< shift_i;", "<< (shift_i == '0 ? shift_i : shift_i - 1'b1);")
+            front_end("SHIFT_BITS'(shift_i)", "(shift_i == '0 ? '0 : SHIFT_BITS'(shift_i) - 1'b1)")
         }
+        Logic::ShiftOuterMore => {
+            front_end("SHIFT_BITS'(shift_outer_i)", "SHIFT_BITS'(shift_outer_i) + 1'b1")
+        }
+        Logic::HandOverExclusive => front_end(
+            "(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
+            "(x) <= blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
+        ),
         Logic::NoInputClamp => front_end("above_one ? blysk_pkg::X_GREATEST", "1'b0 ? '0"),
         Logic::NegativeAsUnsigned => None,
         Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),

@@ -53,7 +53,10 @@ fn head(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     list.add(Kind::One, survey.greatest);
     list.extend(survey.cut.map(|cut| Point { kind: Kind::Cut, x: cut }));
     list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut - 1 }));
+    list.extend(survey.hand_over.map(|x| Point { kind: Kind::HandOver, x }));
+    list.extend(survey.hand_over.map(|x| Point { kind: Kind::BesideHandOver, x: x - 1 }));
     list.extend(survey.worst(&survey.polynomial, Kind::WorstPolynomial));
+    list.extend(survey.worst(&survey.outer, Kind::WorstPolynomial));
     list.add(Kind::Zero, 0);
     list.extend(survey.worst(&survey.below, Kind::WorstTail));
     list.add(Kind::BesideOne, survey.greatest - 1);
@@ -65,6 +68,7 @@ fn rest(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     list.add(Kind::BesideOne, survey.greatest + 1);
     list.add(Kind::BesideZero, 1);
     list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut + 1 }));
+    list.extend(survey.hand_over.map(|x| Point { kind: Kind::BesideHandOver, x: x + 1 }));
     for x in [survey.q, survey.q - 1, survey.q + 1] {
         list.add(Kind::Q, x);
     }
@@ -123,9 +127,12 @@ struct Survey<'a> {
     greatest: i64,
     /// The cut, where there is a polynomial.
     cut: Option<i64>,
+    /// Where the first segment hands over to a second, where there is one.
+    hand_over: Option<i64>,
     /// q in the input's unit.
     q: i64,
     polynomial: Option<Part>,
+    outer: Option<Part>,
     below: Option<Part>,
 }
 
@@ -135,6 +142,9 @@ impl<'a> Survey<'a> {
         let greatest = datapath.front_end().greatest;
         let cut = datapath.stages().map(|_| datapath.row(address).get(FieldName::Cut));
         let from = cut.unwrap_or(greatest + 1);
+        let hand_over = datapath.row(address).get(FieldName::HandOver).min(greatest + 1);
+        let hand_over = Some(hand_over).filter(|&hand_over| hand_over > from);
+        let first = hand_over.unwrap_or(from);
         let fraction = design.config().input.fraction_bits();
         let p = design.rows().get(address as usize).map_or(0.0, |row| row.epicentre);
         // p lies in (0, 1), so it rounds to 0..=one.
@@ -146,20 +156,15 @@ impl<'a> Survey<'a> {
             greatest,
             cut,
             q: design.config().input.one() - p,
-            polynomial: Part::new(from..=greatest, effort),
+            hand_over,
+            polynomial: Part::new(first..=greatest, effort),
+            outer: Part::new(from..=first - 1, effort),
             below: Part::new(0..=greatest.min(from - 1), effort),
         }
     }
 
     fn last(&self, x: i64) -> Signals {
         self.design.datapath().evaluate(self.address, x)
-    }
-
-    fn part(&self, region: Region) -> Option<&Part> {
-        match region {
-            Region::Polynomial => self.polynomial.as_ref(),
-            _ => self.below.as_ref(),
-        }
     }
 
     /// The x of a part with the greatest score: the best lattice point, then uphill from there.
@@ -197,8 +202,13 @@ impl<'a> Survey<'a> {
     fn ties(&self) -> Vec<Point> {
         let lines = ties::lines(self.design.datapath());
         let mut nearest: Vec<Option<(f64, i64)>> = vec![None; lines.len()];
-        for region in [Region::Polynomial, Region::Tail] {
-            let Some(part) = self.part(region) else { continue };
+        let parts = [
+            (Region::Polynomial, &self.polynomial),
+            (Region::Polynomial, &self.outer),
+            (Region::Tail, &self.below),
+        ];
+        for (region, part) in parts {
+            let Some(part) = part else { continue };
             let lattice = part.lattice.points.iter().copied();
             for x in lattice.chain(powers_apart(&part.range, self.greatest)) {
                 let last = self.last(x);

@@ -97,8 +97,13 @@ impl Line {
     pub fn distance(&self, last: &Signals) -> f64 {
         match self {
             Self::Variable { one, up, drop } => {
-                let s = i128::from(one - last.x);
-                from_half(s << (last.row.shift() + up), *drop)
+                let row = &last.row;
+                let hand_over = row.get(FieldName::HandOver);
+                let (start, shift) = match last.x < hand_over {
+                    true => (hand_over, row.shift_outer()),
+                    false => (*one, row.shift()),
+                };
+                from_half(i128::from(start - last.x) << (shift + up), *drop)
             }
             Self::MultiplyAdd { register, exact, drop } => {
                 let operands = operands(register, last);

@@ -1,0 +1,44 @@
+//! Stated formats that the range analysis refuses, judged by the values themselves.
+//!
+//! The analysis widens every range by the rounding errors that may reach it, and by what a polynomial's
+//! extremes have that no representable x takes. So a format with a bit less than it asks for may hold
+//! everything; whoever states such a format gets it if it does.
+
+use crate::budget::BudgetError;
+use crate::datapath::Datapath;
+use crate::format::QFormat;
+
+/// A stated format in doubt.
+pub(super) struct Doubt {
+    /// 0 for the variable, 1 for t1, 2 for t2.
+    pub line: usize,
+    /// The format.
+    pub stated: QFormat,
+    /// What the analysis says.
+    pub refusal: BudgetError,
+}
+
+/// The widest line of which the exact values are looked at: a few bits of room for values that do not fit.
+const WIDEST: u32 = 110;
+
+/// Refuses the first format that does not hold what its register takes.
+pub(super) fn settle(doubts: Vec<Doubt>, datapath: &Datapath) -> Result<(), BudgetError> {
+    if doubts.is_empty() {
+        return Ok(());
+    }
+    let formats = datapath.formats().polynomial.as_ref();
+    let widths = formats.map_or([0; 3], |f| [f.v, f.t1, f.t2].map(QFormat::width));
+    let wide = widths[0] + widths[1].max(widths[2]) > WIDEST;
+    // Values that do not fit their registers have room in the wide lane.
+    let reach = if wide { None } else { datapath.clone().in_wide_lane().polynomial_reach() };
+    for Doubt { line, stated, refusal } in doubts {
+        let Some(reach) = &reach else { return Err(refusal) };
+        let [t1, t2, _] = reach.lines;
+        let reach = [reach.v, t1, t2][line];
+        let holds = |bits: i64| stated.holds(bits.into());
+        if !holds(reach.least.bits) || !holds(reach.greatest.bits) {
+            return Err(refusal);
+        }
+    }
+    Ok(())
+}

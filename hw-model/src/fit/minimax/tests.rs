@@ -1,0 +1,111 @@
+//! What makes a cubic the best: its errors alternate, and none between the points is greater.
+
+use super::*;
+use crate::exponents::MAX_EXPONENT;
+use crate::fit::{Levels, Method, fit};
+use crate::highlight::phong_at_s;
+use proptest::prelude::*;
+
+/// n from 1 to 10¹², about as many in each decade, and not so close to 1, 2 or 3 that the error is rounding.
+fn exponents() -> impl Strategy<Value = f64> {
+    (0.0_f64..12.0).prop_map(core_math::exp10).prop_filter("the error is rounding", |n| {
+        [1.0, 2.0, 3.0].iter().all(|k| (n - k).abs() > 1e-3)
+    })
+}
+
+/// Signs alternate and magnitudes agree with `error` to a part in 10⁷.
+fn alternates(alternation: &Alternation, error: f64) -> Result<(), TestCaseError> {
+    for pair in alternation.points.windows(2) {
+        prop_assert!(pair[0].0 < pair[1].0, "{alternation:?}");
+        prop_assert!(pair[0].1 * pair[1].1 < 0.0, "{alternation:?}");
+    }
+    for (_, at) in &alternation.points {
+        prop_assert!((at.abs() / error - 1.0).abs() < 1e-7, "{alternation:?}, {error:e}");
+    }
+    Ok(())
+}
+
+/// The greatest error at `count` points of a range, with the cubic in f64.
+fn greatest(n: f64, (low, high): (f64, f64), value: impl Fn(f64) -> f64) -> f64 {
+    const POINTS: u32 = 4000;
+    (0..=POINTS)
+        .map(|i| low + (high - low) * f64::from(i) / f64::from(POINTS))
+        .map(|s| (value(s) - phong_at_s(n, s)).abs())
+        .fold(0.0, f64::max)
+}
+
+proptest! {
+    #[test]
+    fn the_error_alternates_and_is_nowhere_greater(n in exponents(), level in 0.001_f64..0.95) {
+        let found = alternation(n, level).unwrap().unwrap();
+        prop_assert_eq!(found.points.len(), 4);
+        let error = found.points[0].1.abs();
+        alternates(&found, error)?;
+        let fit = fit(Method::Minimax, n, Levels::new(level, level / 2.0).unwrap()).unwrap();
+        let all = greatest(n, (0.0, fit.epicentre.s), |s| fit.value_at_s(s));
+        prop_assert!(all <= error * (1.0 + 1e-6) + 4e-15, "{all:e} {error:e}");
+        prop_assert!(all >= error * 0.999 - 4e-15, "{all:e} {error:e}");
+    }
+
+    #[test]
+    fn segments_share_one_error_and_meet(n in exponents(), count in 1_usize..5) {
+        let fitted = segments(n, count, Range::Balanced).unwrap();
+        prop_assume!(fitted.error > 1e-9);
+        prop_assert_eq!(fitted.ends.len(), count);
+        prop_assert_eq!(fitted.further.len(), count - 1);
+        let mut start = 0.0;
+        let mut before = None;
+        for (index, &end) in fitted.ends.iter().enumerate() {
+            let value = |s: f64| match index.checked_sub(1) {
+                None => fitted.first.centred.value_at_s(s),
+                Some(further) => fitted.further[further].value_at_s(s),
+            };
+            alternates(&fitted.alternations[index], fitted.error)?;
+            let all = greatest(n, (start, end), value);
+            prop_assert!((all / fitted.error - 1.0).abs() < 1e-3, "{index}: {all:e} {fitted:?}");
+            if let Some(before) = before {
+                let jump: f64 = value(start) - before;
+                prop_assert!(jump.abs() < 1e-9, "{index}: {jump:e}");
+            }
+            before = Some(value(end));
+            start = end;
+        }
+        // x^n has fallen to the error, and the last segment to zero (between 2 and 3 to twice the error).
+        prop_assert!((phong_at_s(n, start) / fitted.error - 1.0).abs() < 1e-6);
+        let last = if (2.0..3.0).contains(&n) { 2.0 * fitted.error } else { 0.0 };
+        prop_assert!((before.unwrap() - last).abs() < 1e-8);
+    }
+
+    #[test]
+    fn segments_reach_a_given_level(n in exponents(), level in 0.0001_f64..0.9, count in 1_usize..4) {
+        let fitted = segments(n, count, Range::Level(level)).unwrap();
+        let end = *fitted.ends.last().unwrap();
+        prop_assert!((phong_at_s(n, end) / level - 1.0).abs() < 1e-6);
+        if count == 1 {
+            let alone = alternation(n, level).unwrap().unwrap();
+            prop_assert!((alone.points[0].1.abs() / fitted.error - 1.0).abs() < 1e-7);
+        }
+    }
+}
+
+/// For n → ∞ as e^−σ has it; a higher level, or more segments, never errs more.
+#[test]
+fn the_greatest_exponent_is_the_limit() {
+    let error = |n, count| segments(n, count, Range::Balanced).unwrap().error;
+    for count in 1..=4 {
+        let (near, far) = (error(1e9, count), error(MAX_EXPONENT, count));
+        assert!((near / far - 1.0).abs() < 1e-6, "{count}: {near:e} {far:e}");
+        assert!(far < error(1e9, count.max(2) - 1) * if count == 1 { 1.1 } else { 0.5 });
+    }
+}
+
+#[test]
+fn the_first_powers_need_one_segment() {
+    for n in [1.0, 2.0, 3.0] {
+        let fitted = segments(n, 3, Range::Balanced).unwrap();
+        assert_eq!((fitted.error, fitted.ends, fitted.further.len()), (0.0, vec![1.0], 0));
+        assert_eq!(alternation(n, 0.5), Ok(None));
+    }
+    assert!(segments(0.5, 2, Range::Balanced).is_err());
+    assert!(segments(5.0, 2, Range::Level(0.0)).is_err());
+}

@@ -1,0 +1,64 @@
+//! A cubic that counts from a place of its own.
+//!
+//! Far from the highlight a cubic in s = 1 − x has terms that outgrow its value. Counted from the
+//! segment's own start, v = s − start, each term is at most of the size of the value there.
+
+/// c0 − v·(c1 − v·(c2 − v·c3)), v = s − start, s = 1 − x.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Segment {
+    /// The s from which v counts.
+    pub start: f64,
+    /// c0, c1, c2, c3: the value at the start, and the coefficients of −v, v², −v³.
+    pub c: [f64; 4],
+}
+
+impl Segment {
+    /// The value at x = 1 − s.
+    #[must_use]
+    #[inline]
+    pub fn value_at_s(&self, s: f64) -> f64 {
+        let [c0, c1, c2, c3] = self.c;
+        let v = s - self.start;
+        c0 - v * (c1 - v * (c2 - v * c3))
+    }
+
+    /// The slope against s; the slope against x is its negative.
+    #[must_use]
+    pub fn slope_at_s(&self, s: f64) -> f64 {
+        let [_, c1, c2, c3] = self.c;
+        let v = s - self.start;
+        -c1 + v * (2.0 * c2 - v * (3.0 * c3))
+    }
+
+    /// The same cubic, counted from another place (Taylor's series, which ends here). Meant for short
+    /// moves: over a distance d the coefficients are good to an ulp of the greatest c_i·d^i.
+    #[must_use]
+    pub fn counted_from(&self, start: f64) -> Self {
+        let [_, c1, c2, c3] = self.c;
+        let d = start - self.start;
+        let c =
+            [self.value_at_s(start), c1 - d * (2.0 * c2 - d * (3.0 * c3)), c2 - d * (3.0 * c3), c3];
+        Self { start, c }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn the_start_does_not_matter(
+            c in prop::array::uniform4(-4.0_f64..4.0), s in 0.0_f64..1.0, start in 0.0_f64..1.0
+        ) {
+            let segment = Segment { start: 0.25, c };
+            let moved = segment.counted_from(start);
+            prop_assert!((segment.value_at_s(s) - moved.value_at_s(s)).abs() < 1e-13);
+            prop_assert!((segment.slope_at_s(s) - moved.slope_at_s(s)).abs() < 1e-13);
+            let h = 1e-6;
+            let slope = (segment.value_at_s(s + h) - segment.value_at_s(s - h)) / (2.0 * h);
+            prop_assert!((slope - segment.slope_at_s(s)).abs() < 1e-8);
+        }
+    }
+}

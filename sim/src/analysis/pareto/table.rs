@@ -1,0 +1,282 @@
+//! The lines of the tables, and who stands where in them.
+
+use serde::{Deserialize, Serialize};
+
+use super::contender::Contender;
+use super::error::{ContenderErrors, Errors};
+use super::front::dominators;
+use super::hardware::HardwareCost;
+use super::inputs::Inputs;
+use super::synthesis::Synthesis;
+use super::timing::ContenderTimes;
+
+/// One contender: a line of `pareto.csv`. Errors are fractions of full intensity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Its name.
+    pub contender: String,
+    /// `f32` or `f64` on a processor, or `hardware`.
+    pub kind: String,
+    /// 1 where every representable x was seen, else every so many: then greater errors may lie between.
+    pub every: u64,
+    /// The greatest error where x^n ≥ Q.
+    pub epicentre_worst: Option<f64>,
+    /// Where.
+    pub epicentre_worst_n: Option<f64>,
+    /// Where.
+    pub epicentre_worst_x: Option<f64>,
+    /// The root of the mean square there.
+    pub epicentre_rms: Option<f64>,
+    /// The greatest error on all of [0, 1].
+    pub whole_worst: Option<f64>,
+    /// Where.
+    pub whole_worst_n: Option<f64>,
+    /// Where.
+    pub whole_worst_x: Option<f64>,
+    /// The root of the mean square.
+    pub whole_rms: Option<f64>,
+    /// Bits of table or ROM, all exponents together.
+    pub storage_bits: u64,
+    /// Clock cycles.
+    pub latency: Option<u64>,
+    /// The operands of every multiplier.
+    pub multipliers: Option<String>,
+    /// Partial-product bits.
+    pub multiplier_bits: Option<u64>,
+    /// Quotient digits times divisor bits.
+    pub divider_bits: Option<u64>,
+    /// Not dominated in error on the epicentre, multipliers, divider, ROM and latency.
+    pub hardware_epicentre_front: Option<bool>,
+    /// By whom, if it is.
+    pub hardware_epicentre_dominated_by: Option<String>,
+    /// The same with the error on all of [0, 1].
+    pub hardware_whole_front: Option<bool>,
+    /// By whom, if it is.
+    pub hardware_whole_dominated_by: Option<String>,
+    /// What it computes.
+    pub what: String,
+}
+
+/// The times of one contender: a line of `pareto_timing.csv`, in ns per sample.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TimingRow {
+    /// Its name.
+    pub contender: String,
+    /// As in the table of errors: how many x the errors are of that the fronts are about.
+    pub every: u64,
+    /// Blocks of one exponent: the median.
+    pub block_median: f64,
+    /// A quarter of the rounds took at most this.
+    pub block_lower_quartile: f64,
+    /// Three quarters.
+    pub block_upper_quartile: f64,
+    /// The quickest round.
+    pub block_least: f64,
+    /// An exponent for each sample, where there is such a way: the median.
+    pub mixed_median: Option<f64>,
+    /// A quarter of the rounds took at most this.
+    pub mixed_lower_quartile: Option<f64>,
+    /// Three quarters.
+    pub mixed_upper_quartile: Option<f64>,
+    /// The quickest round.
+    pub mixed_least: Option<f64>,
+    /// Not dominated in time over blocks and in error on the epicentre.
+    pub block_epicentre_front: Option<bool>,
+    /// By whom, if it is.
+    pub block_epicentre_dominated_by: Option<String>,
+    /// The same with the error on all of [0, 1].
+    pub block_whole_front: Option<bool>,
+    /// By whom, if it is.
+    pub block_whole_dominated_by: Option<String>,
+    /// With the time over mixed exponents.
+    pub mixed_epicentre_front: Option<bool>,
+    /// By whom, if it is.
+    pub mixed_epicentre_dominated_by: Option<String>,
+    /// With both.
+    pub mixed_whole_front: Option<bool>,
+    /// By whom, if it is.
+    pub mixed_whole_dominated_by: Option<String>,
+}
+
+/// Run times: what depends on the machine.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TimingReport {
+    /// Rounds.
+    pub rounds: u64,
+    /// What x and n were drawn from.
+    pub seed: u64,
+    /// Different samples, each timed several times a round.
+    pub samples: u64,
+    /// Samples of one exponent in a row.
+    pub block: u64,
+    /// One for each contender, in the same order.
+    pub rows: Vec<TimingRow>,
+}
+
+/// Everybody.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ParetoReport {
+    /// The format of x.
+    pub input: String,
+    /// The exponents.
+    pub exponents: String,
+    /// Every so many x.
+    pub every: u64,
+    /// Every representable x was seen.
+    pub exhaustive: bool,
+    /// Samples that each contender was measured at.
+    pub samples: u64,
+    /// Those of them on the epicentre.
+    pub epicentre_samples: u64,
+    /// Who does not take part, and why.
+    pub left_out: Vec<String>,
+    /// One for each contender.
+    pub contenders: Vec<Row>,
+    /// What was synthesised.
+    pub synthesis: Vec<Synthesis>,
+    /// Run times, where they were measured.
+    pub timing: Option<TimingReport>,
+}
+
+/// On the front, or dominated by the one of this name; nothing for those that are not compared.
+type Standing = (Option<bool>, Option<String>);
+
+/// The standing of everybody who has these coordinates.
+fn standings<const AXES: usize>(
+    list: &[Contender],
+    points: &[Option<[f64; AXES]>],
+) -> Vec<Standing> {
+    let present: Vec<usize> = (0..points.len()).filter(|&at| points[at].is_some()).collect();
+    let compared: Vec<[f64; AXES]> = points.iter().flatten().copied().collect();
+    let mut standings = vec![(None, None); points.len()];
+    for (&place, dominator) in present.iter().zip(dominators(&compared)) {
+        let name = dominator.map(|by| list[present[by]].name.clone());
+        standings[place] = (Some(name.is_none()), name);
+    }
+    standings
+}
+
+fn worst(errors: &Errors) -> Option<f64> {
+    errors.worst.map(|worst| worst.error)
+}
+
+/// The lines of `pareto.csv`.
+pub(super) fn rows(list: &[Contender], errors: &[ContenderErrors], inputs: &Inputs) -> Vec<Row> {
+    let costs: Vec<Option<HardwareCost>> =
+        list.iter().map(|contender| contender.engine.cost()).collect();
+    let standing = |part: fn(&ContenderErrors) -> &Errors| {
+        let points: Vec<_> = costs
+            .iter()
+            .zip(errors)
+            .map(|(cost, errors)| point(cost.as_ref()?, part(errors)))
+            .collect();
+        standings(list, &points).into_iter()
+    };
+    let standings = standing(|e| &e.epicentre).zip(standing(|e| &e.whole));
+    list.iter()
+        .zip(errors)
+        .zip(&costs)
+        .zip(standings)
+        .map(|(((contender, errors), cost), (epicentre, whole))| Row {
+            hardware_epicentre_front: epicentre.0,
+            hardware_epicentre_dominated_by: epicentre.1,
+            hardware_whole_front: whole.0,
+            hardware_whole_dominated_by: whole.1,
+            ..row(contender, errors, cost.as_ref(), inputs)
+        })
+        .collect()
+}
+
+/// What hardware is compared by, the error last.
+fn point(cost: &HardwareCost, errors: &Errors) -> Option<[f64; 5]> {
+    let bits = [cost.multiplier_bits(), cost.divider_bits, cost.rom_bits, cost.latency];
+    let [multipliers, divider, rom, latency] = bits.map(|bits| bits as f64);
+    Some([multipliers, divider, rom, latency, worst(errors)?])
+}
+
+/// A line without its standings.
+fn row(
+    contender: &Contender,
+    errors: &ContenderErrors,
+    cost: Option<&HardwareCost>,
+    inputs: &Inputs,
+) -> Row {
+    let ContenderErrors { epicentre, whole } = errors;
+    let rms = |errors: &Errors| (errors.count > 0).then(|| errors.rms());
+    let n = |errors: &Errors| Some(inputs.exponents.as_slice()[errors.worst?.row]);
+    let x = |errors: &Errors| Some(inputs.real(errors.worst?.x));
+    let listed = |cost: &HardwareCost| {
+        let all: Vec<String> = cost.multipliers.iter().map(ToString::to_string).collect();
+        all.join(" ")
+    };
+    Row {
+        contender: contender.name.clone(),
+        kind: contender.engine.kind().to_owned(),
+        every: inputs.every,
+        epicentre_worst: worst(epicentre),
+        epicentre_worst_n: n(epicentre),
+        epicentre_worst_x: x(epicentre),
+        epicentre_rms: rms(epicentre),
+        whole_worst: worst(whole),
+        whole_worst_n: n(whole),
+        whole_worst_x: x(whole),
+        whole_rms: rms(whole),
+        storage_bits: contender.engine.storage_bits(),
+        latency: cost.map(|cost| cost.latency),
+        multipliers: cost.map(listed),
+        multiplier_bits: cost.map(HardwareCost::multiplier_bits),
+        divider_bits: cost.map(|cost| cost.divider_bits),
+        hardware_epicentre_front: None,
+        hardware_epicentre_dominated_by: None,
+        hardware_whole_front: None,
+        hardware_whole_dominated_by: None,
+        what: contender.what.clone(),
+    }
+}
+
+/// The lines of `pareto_timing.csv`.
+pub(super) fn timing_rows(
+    list: &[Contender],
+    errors: &[ContenderErrors],
+    times: &[ContenderTimes],
+    every: u64,
+) -> Vec<TimingRow> {
+    let standing = |time: fn(&ContenderTimes) -> Option<f64>,
+                    part: fn(&ContenderErrors) -> &Errors| {
+        let points: Vec<_> = times
+            .iter()
+            .zip(errors)
+            .map(|(times, errors)| Some([time(times)?, worst(part(errors))?]))
+            .collect();
+        standings(list, &points).into_iter()
+    };
+    let [block, mixed]: [fn(&ContenderTimes) -> Option<f64>; 2] =
+        [|times| Some(times.block.median), |times| Some(times.mixed?.median)];
+    let [epicentre, whole]: [fn(&ContenderErrors) -> &Errors; 2] = [|e| &e.epicentre, |e| &e.whole];
+    let blocks = standing(block, epicentre).zip(standing(block, whole));
+    let mixtures = standing(mixed, epicentre).zip(standing(mixed, whole));
+    list.iter()
+        .zip(times)
+        .zip(blocks.zip(mixtures))
+        .map(|((contender, times), ((b_epicentre, b_whole), (m_epicentre, m_whole)))| TimingRow {
+            contender: contender.name.clone(),
+            every,
+            block_median: times.block.median,
+            block_lower_quartile: times.block.lower_quartile,
+            block_upper_quartile: times.block.upper_quartile,
+            block_least: times.block.least,
+            mixed_median: times.mixed.map(|mixed| mixed.median),
+            mixed_lower_quartile: times.mixed.map(|mixed| mixed.lower_quartile),
+            mixed_upper_quartile: times.mixed.map(|mixed| mixed.upper_quartile),
+            mixed_least: times.mixed.map(|mixed| mixed.least),
+            block_epicentre_front: b_epicentre.0,
+            block_epicentre_dominated_by: b_epicentre.1,
+            block_whole_front: b_whole.0,
+            block_whole_dominated_by: b_whole.1,
+            mixed_epicentre_front: m_epicentre.0,
+            mixed_epicentre_dominated_by: m_epicentre.1,
+            mixed_whole_front: m_whole.0,
+            mixed_whole_dominated_by: m_whole.1,
+        })
+        .collect()
+}

@@ -1,0 +1,169 @@
+//! The measured error of a design over the range that was asked for.
+//!
+//! A few hundred x of each row decide first, and every x at which anything ever failed; who passes them is
+//! measured at every x of the range. Below the cut a zero tail errs by x^n, most at the x beside the cut, so
+//! that the x further down need no look.
+
+use hw_model::config::Tail;
+use hw_model::datapath::Block;
+use hw_model::design::Design;
+use hw_model::highlight::phong;
+use rayon::prelude::*;
+
+use super::super::error_report::Progress;
+use super::super::sweep::estimate;
+
+/// x that make one piece of work for a thread.
+const PIECE: i64 = 1 << 16;
+/// Pieces of a row, so that all the places where it fails are learnt at once.
+const LEAST_PIECES: i64 = 16;
+/// x of a row that decide first.
+const SPREAD: i64 = 320;
+/// The last x below 1, every one of them.
+const NEAREST: i64 = 24;
+
+/// An error and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// As a fraction of full intensity.
+    pub error: f64,
+    /// The ROM row.
+    pub address: u32,
+    /// The bits of x.
+    pub x: i64,
+}
+
+/// The x of a row that have been chosen, and x^n there.
+#[derive(Debug, Clone, Default)]
+struct Chosen {
+    xs: Vec<i64>,
+    powers: Vec<f64>,
+}
+
+/// What designs of the same real rows are measured by.
+pub struct Judge {
+    /// The first and the last x of each row.
+    spans: Vec<(i64, i64)>,
+    chosen: Vec<Chosen>,
+    /// Addresses, those that failed last in front.
+    order: Vec<u32>,
+    pub error: f64,
+}
+
+impl Judge {
+    /// For designs with the rows of this one; `least` is the least x of each.
+    pub fn new(design: &Design, least: &[i64], error: f64) -> Self {
+        let greatest = design.datapath().front_end().greatest;
+        let spans: Vec<(i64, i64)> = design
+            .rows()
+            .iter()
+            .zip(least)
+            .map(|(row, &least)| {
+                let all = design.config().tail == Tail::Rational;
+                (if all { least } else { least.max(row.cut - 1) }.min(greatest), greatest)
+            })
+            .collect();
+        let order = (0..spans.len() as u32).collect();
+        let mut judge = Self { chosen: vec![Chosen::default(); spans.len()], spans, order, error };
+        for (address, row) in (0..).zip(design.rows()) {
+            let (first, last) = judge.spans[address as usize];
+            let spread = (0..=SPREAD).map(|i| {
+                first + (i128::from(last - first) * i128::from(i) / i128::from(SPREAD)) as i64
+            });
+            let edges = [row.cut - 1, row.cut, row.hand_over - 1, row.hand_over];
+            let near = last - NEAREST..=last;
+            let mut xs: Vec<i64> = spread.chain(edges).chain(near).collect();
+            xs.retain(|x| (first..=last).contains(x));
+            xs.sort_unstable();
+            xs.dedup();
+            for x in xs {
+                judge.choose(design, address, x);
+            }
+        }
+        judge
+    }
+
+    /// Asks this x first from now on.
+    pub fn choose(&mut self, design: &Design, address: u32, x: i64) {
+        let exponent = design.rows()[address as usize].exponent;
+        let chosen = &mut self.chosen[address as usize];
+        chosen.xs.push(x);
+        chosen.powers.push(phong(exponent, x as f64 * design.config().input.ulp()));
+    }
+
+    /// Whether the chosen x keep the error.
+    pub fn may_pass(&mut self, design: &Design) -> bool {
+        let ulp = design.config().output.ulp();
+        let mut block = Block::default();
+        let failed = self.order.iter().position(|&address| {
+            let Chosen { xs, powers } = &self.chosen[address as usize];
+            design.datapath().evaluate_block(address, xs, &mut block);
+            let mut both = block.intensities.iter().zip(powers);
+            both.any(|(&bits, power)| (bits as f64 * ulp - power).abs() > self.error)
+        });
+        if let Some(at) = failed {
+            self.order[..=at].rotate_right(1);
+        }
+        failed.is_none()
+    }
+
+    /// The greatest error of every piece of every row, over every x.
+    pub fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
+        let pieces: Vec<(u32, i64, i64)> = (0..)
+            .zip(&self.spans)
+            .flat_map(|(address, &(first, last))| {
+                // Rows of few x have as many pieces as matter, too.
+                let length = ((last - first) / LEAST_PIECES + 1).min(PIECE);
+                let starts = (first..=last).step_by(length as usize);
+                starts.map(move |start| (address, start, last.min(start + length - 1)))
+            })
+            .collect();
+        pieces
+            .into_par_iter()
+            .map(|(address, first, last)| {
+                let place = worst(design, address, first, last);
+                progress.advance((last - first + 1) as u64);
+                place
+            })
+            .collect()
+    }
+}
+
+/// The greatest of all pieces, the first of equal ones.
+pub fn greatest(pieces: &[Place]) -> Option<Place> {
+    pieces.iter().copied().reduce(|worst, row| if row.error > worst.error { row } else { worst })
+}
+
+/// Estimates of x^n spare the reference wherever it could not make the greatest error.
+fn worst(design: &Design, address: u32, first: i64, last: i64) -> Place {
+    const BLOCK: usize = 2048;
+    let exponent = design.rows()[address as usize].exponent;
+    let (input, output) = (design.config().input.ulp(), design.config().output.ulp());
+    let (mut block, mut powers) = (Block::default(), Vec::with_capacity(BLOCK));
+    let mut xs = Vec::with_capacity(BLOCK);
+    let mut worst = Place { error: 0.0, address, x: first };
+    for start in (first..=last).step_by(BLOCK) {
+        xs.clear();
+        xs.extend(start..=last.min(start + BLOCK as i64 - 1));
+        design.datapath().evaluate_block(address, &xs, &mut block);
+        powers.resize(xs.len(), 0.0);
+        // x^n is at most 1; what the estimates drop and the differences round is far below 4 ulp of 1.
+        let slack = estimate(exponent, &xs, input, &mut powers) + 4.0 * f64::EPSILON;
+        let errors = block.intensities.iter().zip(&powers);
+        let errors = errors.map(|(&bits, power)| (bits as f64 * output - power).abs());
+        let greatest = errors.clone().fold(0.0, f64::max);
+        if greatest + slack <= worst.error {
+            continue;
+        }
+        for (index, estimate) in errors.enumerate() {
+            if estimate + slack >= greatest - slack {
+                let exact = phong(exponent, xs[index] as f64 * input);
+                let error = (block.intensities[index] as f64 * output - exact).abs();
+                if error > worst.error {
+                    worst = Place { error, address, x: xs[index] };
+                }
+            }
+        }
+    }
+    worst
+}

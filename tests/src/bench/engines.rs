@@ -1,0 +1,162 @@
+//! The model's own engines, each under the stimulus that the others get.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use hw_model::design::Design;
+use rayon::prelude::*;
+use sim::pipeline::{Inputs, Pipeline};
+use sim::stream::{CYCLES, Stream};
+
+use super::{ADDRESS, Pattern, SEED, Timed};
+
+/// x that are evaluated together in a sweep.
+const BLOCK: usize = 2048;
+
+/// Requests: the same as in `harness.cpp`.
+pub(super) trait Stimulus {
+    fn new() -> Self;
+    fn next(&mut self) -> (u32, i64);
+}
+
+pub(super) struct Random(u64);
+
+impl Stimulus for Random {
+    fn new() -> Self {
+        Self(SEED)
+    }
+
+    #[inline(always)]
+    fn next(&mut self) -> (u32, i64) {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        let s = (self.0 >> 16 & 0x7f_ffff) >> (self.0 >> 40 & 7);
+        (self.0 as u32 & 0xff, 0x7f_ffff - s as i64)
+    }
+}
+
+struct Sweep(i64);
+
+impl Stimulus for Sweep {
+    fn new() -> Self {
+        Self(0)
+    }
+
+    #[inline(always)]
+    fn next(&mut self) -> (u32, i64) {
+        let x = self.0 & 0x7f_ffff;
+        self.0 += 1;
+        (ADDRESS, x)
+    }
+}
+
+#[inline(always)]
+const fn sum(checksum: u64, intensity: i64, status: u8) -> u64 {
+    checksum.rotate_left(7) ^ ((intensity as u64) << 4 | status as u64)
+}
+
+fn timed(count: u64, run: impl FnOnce() -> u64) -> Timed {
+    let begin = Instant::now();
+    let checksum = black_box(run());
+    Timed { count, seconds: begin.elapsed().as_secs_f64(), checksum }
+}
+
+/// The same of what one thread does, in time of the processor where the system tells it.
+fn timed_alone(count: u64, run: impl FnOnce() -> u64) -> Timed {
+    let begin = processor();
+    let timed = timed(count, run);
+    let taken = begin.zip(processor()).map(|(begin, end)| end - begin);
+    Timed { seconds: taken.unwrap_or(timed.seconds), ..timed }
+}
+
+/// Seconds that this thread has had of the processor, so that others on the machine take nothing away.
+pub(super) fn processor() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds * 1e-9)
+}
+
+/// The clocked simulator, a cycle after the other.
+#[must_use]
+pub fn clocked(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
+    match pattern {
+        Pattern::Random => clocked_with::<Random>(design, cycles),
+        Pattern::Sweep => clocked_with::<Sweep>(design, cycles),
+    }
+}
+
+fn clocked_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
+    let mut pipeline = Pipeline::new(design.datapath());
+    let mut stimulus = S::new();
+    timed_alone(cycles, || {
+        let mut checksum = 0;
+        for _ in 0..cycles {
+            let (address, x) = stimulus.next();
+            let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };
+            let outputs = pipeline.tick(&inputs);
+            if outputs.out_valid {
+                checksum = sum(checksum, outputs.intensity, outputs.status.bits());
+            }
+        }
+        checksum
+    })
+}
+
+/// Many cycles at a time. The results of the last latency are not yet shown, as in the others.
+#[must_use]
+pub fn streamed(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
+    match pattern {
+        Pattern::Random => streamed_with::<Random>(design, cycles),
+        Pattern::Sweep => streamed_with::<Sweep>(design, cycles),
+    }
+}
+
+fn streamed_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
+    let mut stream = Stream::new(design.datapath());
+    let mut stimulus = S::new();
+    let mut left = cycles.saturating_sub(design.datapath().rank_count() as u64);
+    timed_alone(cycles, || {
+        let mut checksum = 0;
+        for _ in 0..cycles.div_ceil(CYCLES as u64) {
+            stream.run(|addresses, xs, valid| {
+                for (address, x) in addresses.iter_mut().zip(xs) {
+                    (*address, *x) = stimulus.next();
+                }
+                *valid = [true; CYCLES];
+            });
+            let (intensities, _) = stream.results();
+            let shown = left.min(CYCLES as u64) as usize;
+            for (result, &intensity) in intensities.iter().enumerate().take(shown) {
+                checksum = sum(checksum, intensity, stream.status(result).bits());
+            }
+            left -= shown as u64;
+        }
+        checksum
+    })
+}
+
+/// Every x of every exponent, or those from the cut on; the sum of all intensities, so that the order of the
+/// threads does not matter.
+#[must_use]
+pub fn sweep(design: &Design, threads: &rayon::ThreadPool, from_cut: bool) -> Timed {
+    let greatest = design.datapath().front_end().greatest;
+    let firsts = design.rows().iter().map(|row| if from_cut { row.cut } else { 0 });
+    let firsts: Vec<i64> = firsts.collect();
+    let count = firsts.iter().map(|first| (greatest - first + 1).max(0) as u64).sum();
+    let row = |(address, &first): (usize, &i64)| {
+        let mut intensities = vec![0; BLOCK];
+        let mut total = 0_u64;
+        for x in (first..=greatest).step_by(BLOCK) {
+            let len = (greatest - x + 1).min(BLOCK as i64) as usize;
+            let block = &mut intensities[..len];
+            design.datapath().evaluate_run(address as u32, x, block);
+            // Looked at, and cheaply: adding all up would take longer than computing them.
+            total = total.wrapping_add(block.iter().step_by(64).sum::<i64>() as u64);
+        }
+        total
+    };
+    timed(count, || {
+        threads.install(|| firsts.par_iter().enumerate().map(row).reduce(|| 0, u64::wrapping_add))
+    })
+}

@@ -1,0 +1,173 @@
+//! `blysk design`: what is written keeps the error, and every witness says why no bit can be spared. All of it
+//! is tried here again, through designs made from the written configuration.
+
+use std::collections::BTreeMap;
+
+use blysk_tests::bench;
+use blysk_tests::cli::{Bench, csv_rows, number};
+use hw_model::config::Config;
+use hw_model::datapath::Signals;
+use hw_model::design::Design;
+use hw_model::format::QFormat;
+use hw_model::highlight::phong;
+use hw_model::rom::FieldName;
+
+const ASKED: [(&str, f64); 4] = [
+    ("--exponents 1..=12 --input UQ1.10 --output UQ1.10 --error 0.0067 --range all", 0.0067),
+    ("--exponents 2,5,8.5,16 --input UQ1.10 --output UQ1.8 --error 0.008 --range epicentre", 0.008),
+    ("--exponents 1..=8 --input UQ0.9 --output UQ0.9 --error 0.02 --range 0.1", 0.02),
+    ("--exponents 1..=6 --input UQ1.10 --output UQ1.8 --error 0.2", 0.2),
+];
+
+/// Prints the witnesses and writes the configuration.
+fn designed(bench: &Bench, asked: &str) -> (Design, Vec<BTreeMap<String, String>>) {
+    let text = bench.good(&format!("design {asked} --out designed.json --format csv"));
+    let config = Config::from_json(&bench.text("designed.json")).unwrap();
+    (Design::new(config).unwrap(), csv_rows(&text))
+}
+
+fn error(design: &Design, address: u32, x: i64) -> f64 {
+    let config = design.config();
+    let shown = design.datapath().passage(address, x).last().unwrap().intensity as f64;
+    let n = design.rows()[address as usize].exponent;
+    (shown * config.output.ulp() - phong(n, x as f64 * config.input.ulp())).abs()
+}
+
+/// Every x where x^n is at least the level.
+fn worst(design: &Design, level: f64) -> f64 {
+    let input = design.config().input;
+    let greatest = design.datapath().front_end().greatest;
+    let mut worst = 0.0_f64;
+    for (address, row) in (0..).zip(design.rows()) {
+        for x in 0..=greatest {
+            if phong(row.exponent, x as f64 * input.ulp()) >= level {
+                worst = worst.max(error(design, address, x));
+            }
+        }
+    }
+    worst
+}
+
+fn level(asked: &str) -> f64 {
+    match asked.split_once("--range ").map(|(_, range)| range) {
+        Some("epicentre") => 0.5,
+        Some("all") | None => 0.0,
+        Some(level) => level.parse().unwrap(),
+    }
+}
+
+#[test]
+fn the_error_is_kept_at_every_x() {
+    let bench = bench!();
+    for (asked, allowed) in ASKED {
+        let (design, _) = designed(&bench, asked);
+        let worst = worst(&design, level(asked));
+        assert!(worst <= allowed && worst > 0.3 * allowed, "{asked}: {worst}");
+    }
+}
+
+fn held(register: &str, passage: &[Signals]) -> i64 {
+    let row = |name| passage[1].row.get(name);
+    match register {
+        "u" => passage[1].v,
+        "t1" => passage[2].t1,
+        "t2" => passage[3].t2,
+        "c3" => row(FieldName::C3),
+        "c2" => row(FieldName::C2),
+        "c1" => row(FieldName::C1),
+        "c0" => row(FieldName::C0),
+        "tail_a" => row(FieldName::TailA),
+        "tail_b" => row(FieldName::TailB),
+        "divisor" => passage[2].division.divisor,
+        other => panic!("{other}"),
+    }
+}
+
+/// The design with a fraction bit less in a register (or none), and integer bits enough in all of them.
+fn with_room(design: &Design, register: Option<&str>) -> Design {
+    let mut config = serde_json::to_value(design.config()).unwrap();
+    config["error_budget_ulp"] = 1e6.into();
+    for (name, format) in config["widths"].as_object_mut().unwrap() {
+        let own: QFormat = format.as_str().unwrap().parse().unwrap();
+        let less = u32::from(register == Some(name));
+        let roomy = QFormat::signed(own.integer_bits() + 3, own.fraction_bits() - less).unwrap();
+        *format = roomy.to_string().into();
+    }
+    Design::new(Config::from_json(&config.to_string()).unwrap()).unwrap()
+}
+
+#[test]
+fn every_witness_testifies() {
+    let bench = bench!();
+    let (mut errors, mut overflows) = (0, 0);
+    for (asked, allowed) in ASKED {
+        let (design, rows) = designed(&bench, asked);
+        let stated = serde_json::to_value(design.widths()).unwrap();
+        let stated = stated.as_object().unwrap();
+        assert_eq!(rows.len(), 2 * stated.len(), "{asked}: two for each register");
+        for row in &rows {
+            let (register, fraction) = (row["register"].as_str(), row["fewer"] == "fraction");
+            assert_eq!(stated[register], row["format"], "{row:?}");
+            if row["n"].is_empty() {
+                // Only a bit that is not there needs no witness, or one of the divider's that has to be.
+                let own: QFormat = row["format"].parse().unwrap();
+                let divider = ["tail_a", "tail_b", "divisor"].contains(&register);
+                // Or that would make the ROM wider: the same integer in every row takes no place in it.
+                let rom = row["rom_bits"].parse().is_ok_and(|bits: u64| bits > design.rom().bits());
+                let none = own.fraction_bits() == 0 || own.width() == 1;
+                assert!(none || divider || rom, "{row:?}");
+                continue;
+            }
+            let narrower = with_room(&design, fraction.then_some(register));
+            let address = narrower.rom().address_of(number(row, "n"));
+            let x = number(row, "x_bits") as i64;
+            if row["overflows"].is_empty() {
+                let error = error(&narrower, address, x);
+                assert_eq!(error, number(row, "error"), "{row:?}");
+                assert!(fraction && error > allowed, "{row:?}");
+                errors += 1;
+            } else {
+                let passage = narrower.datapath().passage(address, x);
+                let bits = held(&row["overflows"], &passage);
+                assert_eq!(bits as f64, number(row, "bits"), "{row:?}");
+                let format: QFormat = row["in_format"].parse().unwrap();
+                let own: QFormat = row["format"].parse().unwrap();
+                let alone = own.width() == 1 && format == own;
+                assert!(alone || !format.holds(bits.into()), "{row:?}");
+                overflows += 1;
+            }
+        }
+    }
+    assert!(errors > 15 && overflows > 15, "{errors} errors, {overflows} overflows");
+}
+
+#[test]
+fn the_ranking_says_what_was_considered_and_why_not() {
+    let bench = bench!();
+    let (asked, _) = ASKED[0];
+    let text = bench.good(&format!("design {asked}"));
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    for word in ["hermite", "three_point", "tangent", "quadratic", "minimax", "schlick"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    for word in ["too far", "proved", "narrowed", "multiplier bits", "a bit less"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    assert_eq!(text, bench.good(&format!("design {asked}")));
+}
+
+#[test]
+fn what_cannot_be_had_is_refused() {
+    let bench = bench!();
+    let design = "design --exponents 1..=8 --input UQ1.10 --out x.json";
+    bench.refused(
+        &format!("{design} --output UQ1.10 --error 0.0001"),
+        &["nothing keeps an error of 0.0001", "minimax", "allow more"],
+    );
+    bench.refused(&format!("{design} --output Q1.10 --error 0.01"), &["`output`", "unsigned"]);
+    bench.refused(&format!("{design} --output UQ1.8 --error 2"), &["--error", "at most 1"]);
+    bench.refused(
+        &format!("{design} --output UQ1.8 --error 0.01 --range 1.5"),
+        &["--range", "epicentre"],
+    );
+}

@@ -1,0 +1,163 @@
+//! Every way of running the pipeline gives the same bits, over random configurations.
+
+use blysk_tests::configurations::{Random, inputs, random};
+use hw_model::datapath::{Block, Datapath};
+use hw_model::design::Design;
+use hw_model::presets;
+use sim::pipeline::{Inputs, Pipeline, Rank};
+use sim::stream::{CYCLES, Stream};
+
+/// Seed of the configurations.
+const SEED: u64 = 7;
+/// Configurations tried; about two thirds of them make hardware.
+const CONFIGURATIONS: u64 = 400;
+
+fn designs() -> impl Iterator<Item = (Random, Design)> {
+    let presets = presets::ALL.iter().map(|preset| preset.config().unwrap());
+    let sources = (0..CONFIGURATIONS).map(|stream| Random::new(SEED, stream));
+    let mut presets = presets.collect::<Vec<_>>().into_iter();
+    sources.filter_map(move |mut source| {
+        let config = presets.next().unwrap_or_else(|| random(&mut source));
+        Some((source, Design::new(config).ok()?))
+    })
+}
+
+/// A request worth trying, also one at an address without a word.
+fn request(source: &mut Random, design: &Design) -> (u32, i64) {
+    let address = source.integer(0, design.rom().depth() as i64) as u32;
+    let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
+    let xs = inputs(source, design.datapath(), cut, 30);
+    (address, source.one_of(&xs))
+}
+
+/// The handshake's rules as they are written, a rank after the other, each with all its registers.
+struct Written<'a> {
+    datapath: &'a Datapath,
+    ranks: Vec<Rank>,
+}
+
+impl Written<'_> {
+    fn tick(&mut self, inputs: &Inputs) {
+        let mut ready = inputs.out_ready;
+        for index in (0..self.ranks.len()).rev() {
+            let held = self.ranks[index];
+            let before = index.checked_sub(1).map(|before| self.ranks[before]);
+            let advances = !held.valid || ready;
+            let offered =
+                before.map_or(inputs.in_valid && !inputs.reset, |before: Rank| before.valid);
+            let rank = &mut self.ranks[index];
+            if advances && offered {
+                rank.loaded = true;
+                rank.signals = match before {
+                    None => self.datapath.fetch(inputs.address, inputs.x),
+                    Some(before) => self.datapath.advance(index, &before.signals),
+                };
+            }
+            rank.valid = (if advances { offered } else { held.valid }) && !inputs.reset;
+            ready = advances;
+        }
+    }
+}
+
+/// Stalls, bubbles and resets in spells of all lengths.
+#[test]
+fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
+    let mut compared = 0;
+    for (mut source, design) in designs().take(120) {
+        let datapath = design.datapath();
+        let mut pipeline = Pipeline::new(datapath);
+        let mut written = Written { datapath, ranks: vec![Rank::default(); datapath.rank_count()] };
+        let requests: Vec<_> = (0..40).map(|_| request(&mut source, &design)).collect();
+        let (mut request_in, mut ready_in) = (1, 1);
+        for cycle in 0..400 {
+            if source.once_in(30) {
+                (request_in, ready_in) = (source.integer(1, 6), source.integer(1, 6));
+            }
+            let (address, x) = source.one_of(&requests);
+            let inputs = Inputs {
+                reset: source.once_in(50),
+                in_valid: source.once_in(request_in),
+                address,
+                x,
+                out_ready: source.once_in(ready_in),
+            };
+            let outputs = pipeline.combinational(&inputs);
+            let last = written.ranks[written.ranks.len() - 1];
+            assert_eq!(outputs.out_valid, last.valid);
+            let result = (last.signals.intensity, last.signals.status);
+            assert_eq!((outputs.intensity, outputs.status), result);
+            let (ready, valid) = (inputs.out_ready, written.ranks.iter().all(|rank| rank.valid));
+            assert_eq!(outputs.in_ready, (ready || !valid) && !inputs.reset);
+            pipeline.clock();
+            written.tick(&inputs);
+            for (index, (shown, wanted)) in pipeline.ranks().iter().zip(&written.ranks).enumerate()
+            {
+                let name = &design.config().name;
+                assert_eq!(shown, *wanted, "{name}, cycle {cycle}, rank {index}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 100_000, "{compared}");
+}
+
+/// Every register of every cycle, over several times as many cycles as are computed together, with bubbles
+/// from single ones to longer than that.
+#[test]
+fn many_cycles_at_a_time_show_what_the_clocked_simulator_shows() {
+    let mut compared = 0;
+    for (mut source, design) in designs().take(60) {
+        let datapath = design.datapath();
+        let (mut pipeline, mut stream) = (Pipeline::new(datapath), Stream::new(datapath));
+        let requests: Vec<_> = (0..40).map(|_| request(&mut source, &design)).collect();
+        for _ in 0..6 {
+            let every = source.one_of(&[1, 1, 2, 9, 100, 100_000]);
+            let driven: Vec<_> =
+                (0..CYCLES).map(|_| (source.one_of(&requests), source.once_in(every))).collect();
+            stream.run(|addresses, xs, valid| {
+                for (cycle, &((address, x), request)) in driven.iter().enumerate() {
+                    (addresses[cycle], xs[cycle], valid[cycle]) = (address, x, request);
+                }
+            });
+            for (cycle, &((address, x), in_valid)) in driven.iter().enumerate() {
+                let inputs = Inputs { reset: false, in_valid, address, x, out_ready: true };
+                let outputs = pipeline.combinational(&inputs);
+                assert_eq!(stream.outputs(cycle), outputs, "cycle {cycle}");
+                for (rank, wanted) in pipeline.ranks().iter().enumerate() {
+                    let shown = stream.rank(cycle, rank);
+                    assert_eq!(shown, wanted, "{} {cycle} {rank}", design.config().name);
+                    compared += 1;
+                }
+                pipeline.clock();
+            }
+        }
+    }
+    assert!(compared > 100_000, "{compared}");
+}
+
+/// Runs of consecutive x, across the cut, 0 and 1 wherever the input format goes there.
+#[test]
+fn a_run_is_a_block_is_the_ranks() {
+    let mut block = Block::default();
+    let mut compared = 0;
+    for (mut source, design) in designs() {
+        let datapath = design.datapath();
+        let format = datapath.formats().input;
+        let address = source.integer(0, design.rom().depth() as i64) as u32;
+        let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
+        for first in inputs(&mut source, datapath, cut, 24) {
+            let from = (first - source.integer(0, 300)).max(format.min_bits());
+            let count = source.integer(1, 400).min(format.max_bits() - from + 1);
+            let xs: Vec<i64> = (from..from + count).collect();
+            let mut run = vec![-1; xs.len()];
+            datapath.evaluate_run(address, from, &mut run);
+            datapath.evaluate_block(address, &xs, &mut block);
+            assert_eq!(run, block.intensities, "{} {address} {from}", design.config().to_json());
+            for (&x, &intensity) in xs.iter().zip(&run).step_by(37) {
+                assert_eq!(intensity, datapath.evaluate(address, x).intensity, "{address} {x}");
+            }
+            compared += xs.len();
+        }
+    }
+    assert!(compared > 100_000, "{compared}");
+}
