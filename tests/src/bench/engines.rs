@@ -51,9 +51,21 @@ impl Stimulus for Sweep {
     }
 }
 
-#[inline(always)]
-const fn sum(checksum: u64, intensity: i64, status: u8) -> u64 {
-    checksum.rotate_left(7) ^ ((intensity as u64) << 4 | status as u64)
+/// Every result times an odd number of its own, so that their order matters; the same as in `harness.cpp`.
+struct Checksum {
+    sum: u64,
+    weight: u64,
+}
+
+impl Checksum {
+    const NONE: Self = Self { sum: 0, weight: 1 };
+
+    #[inline(always)]
+    const fn add(&mut self, intensity: i64, status: u8) {
+        let result = (intensity as u64) << 4 | status as u64;
+        self.sum = self.sum.wrapping_add(result.wrapping_mul(self.weight));
+        self.weight = self.weight.wrapping_add(2);
+    }
 }
 
 fn timed(count: u64, run: impl FnOnce() -> u64) -> Timed {
@@ -90,16 +102,16 @@ fn clocked_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
     let mut pipeline = Pipeline::new(design.datapath());
     let mut stimulus = S::new();
     timed_alone(cycles, || {
-        let mut checksum = 0;
+        let mut checksum = Checksum::NONE;
         for _ in 0..cycles {
             let (address, x) = stimulus.next();
             let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };
             let outputs = pipeline.tick(&inputs);
             if outputs.out_valid {
-                checksum = sum(checksum, outputs.intensity, outputs.status.bits());
+                checksum.add(outputs.intensity, outputs.status.bits());
             }
         }
-        checksum
+        checksum.sum
     })
 }
 
@@ -117,7 +129,7 @@ fn streamed_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
     let mut stimulus = S::new();
     let mut left = cycles.saturating_sub(design.datapath().rank_count() as u64);
     timed_alone(cycles, || {
-        let mut checksum = 0;
+        let mut checksum = Checksum::NONE;
         for _ in 0..cycles.div_ceil(CYCLES as u64) {
             stream.run(|addresses, xs, valid| {
                 for (address, x) in addresses.iter_mut().zip(xs) {
@@ -128,11 +140,11 @@ fn streamed_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
             let (intensities, _) = stream.results();
             let shown = left.min(CYCLES as u64) as usize;
             for (result, &intensity) in intensities.iter().enumerate().take(shown) {
-                checksum = sum(checksum, intensity, stream.status(result).bits());
+                checksum.add(intensity, stream.status(result).bits());
             }
             left -= shown as u64;
         }
-        checksum
+        checksum.sum
     })
 }
 

@@ -1,4 +1,5 @@
-//! `make bench`: speed beside Verilator's on the emitted RTL, in one run. `--docs FILE` writes the table there as well.
+//! `make bench`: speed beside Verilator's on the emitted RTL, in one run. `--docs FILE` writes the table there as well;
+//! names of presets, instead, time these alone.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -59,20 +60,22 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Failure> {
-    let docs = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
-        [] => None,
-        [flag, file] if flag == "--docs" => Some(PathBuf::from(file)),
-        _ => return failed("usage: bench [--docs FILE]"),
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (docs, named) = match arguments.as_slice() {
+        [flag, file] if flag == "--docs" => (Some(PathBuf::from(file)), &[][..]),
+        named => (None, named),
     };
+    let all = PRESETS.map(str::to_owned);
+    let names = if named.is_empty() { &all[..] } else { named };
     let machine = format!("{}; {}", machine(), verilator::version()?);
     println!("{machine}");
     println!("the median of {TURNS} turns, and the slowest and fastest of them\n");
     let mut table = Table(String::new());
-    for name in PRESETS {
+    for name in names {
         let preset = presets::ALL.iter().find(|preset| preset.name == name);
         let config = preset.and_then(|preset| preset.config().ok());
         let Some(design) = config.and_then(|config| Design::new(config).ok()) else {
-            return failed(format!("{name} is no preset"));
+            return failed(format!("{name} is no preset; usage: bench [--docs FILE | PRESET...]"));
         };
         table.heading(name);
         cycles(&design, &mut table)?;
