@@ -232,7 +232,7 @@ impl<'a> Pipeline<'a> {
     }
 
     /// One clock cycle: what an RTL simulator shows at the rising edge, and then the edge.
-    #[inline]
+    #[inline(always)]
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let outputs = self.combinational(inputs);
         self.clock();
@@ -243,7 +243,7 @@ impl<'a> Pipeline<'a> {
     ///
     /// Rule 2, written out: a rank advances when the output is taken or any rank from it on is empty, that is,
     /// when it is not above the last empty one.
-    #[inline]
+    #[inline(always)]
     pub fn combinational(&mut self, inputs: &Inputs) -> Outputs {
         let valid = self.places_q.valid;
         let request = inputs.in_valid && !inputs.reset;
@@ -285,7 +285,7 @@ impl<'a> Pipeline<'a> {
     }
 
     /// The rising edge.
-    #[inline]
+    #[inline(always)]
     pub fn clock(&mut self) {
         if self.takes_d {
             let (address, x) = self.request_d;

@@ -133,13 +133,18 @@ impl Requests {
             let row = *known.unwrap_or_else(|| datapath.row_at(0));
             return Some(OneWord { row, known: known.is_some() });
         }
-        let fields = datapath.rom.layout().fields();
-        for (request, &address) in self.addresses.iter().enumerate() {
-            let known = datapath.rom.row(address);
-            let row = known.unwrap_or_else(|| datapath.row_at(0));
-            self.words.known[request] = i64::from(known.is_some());
-            for field in fields {
-                self.words.fields[field.name as usize][request] = row.get(field.name);
+        let mut rows = [datapath.row_at(0); REQUESTS];
+        for ((row, known), &address) in
+            rows.iter_mut().zip(&mut self.words.known).zip(&self.addresses)
+        {
+            let found = datapath.rom.row(address);
+            *known = i64::from(found.is_some());
+            *row = found.unwrap_or(row);
+        }
+        for field in datapath.rom.layout().fields() {
+            let values = &mut self.words.fields[field.name as usize];
+            for (value, row) in values.iter_mut().zip(rows) {
+                *value = row.get(field.name);
             }
         }
         None

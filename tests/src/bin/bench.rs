@@ -20,7 +20,7 @@ const PRESETS: [&str; 3] = ["compact", "precise", "paper"];
 /// Turns of everything that is timed.
 const TURNS: usize = 7;
 /// Cycles of a run; a stream computes some hundred together, so it gets more of them.
-const CYCLES: u64 = 2_000_000;
+const CYCLES: u64 = 4_000_000;
 /// Cycles whose results are compared before anything is timed.
 const CHECKED: u64 = 500_000;
 const WAVE_CYCLES: u64 = 200_000;
@@ -113,7 +113,7 @@ fn patterned(
     for _ in 0..TURNS {
         rates[0].push(&verilated.run(pattern, CYCLES, None)?);
         rates[1].push(&engines::clocked(design, pattern, CYCLES));
-        rates[2].push(&engines::streamed(design, pattern, 10 * CYCLES));
+        rates[2].push(&engines::streamed(design, pattern, 20 * CYCLES));
     }
     let [theirs, clocked, streamed] = &rates;
     let ratio = |rates: &Rates| Some((rates.median() / theirs.median(), "Verilator"));
