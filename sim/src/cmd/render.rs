@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use anyhow::{Context, bail};
+use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use rayon::prelude::*;
@@ -61,7 +61,7 @@ fn clock(text: &str) -> Result<f64, String> {
 }
 
 /// Rounds of timing, in each of which both ways have a turn; the least time counts.
-const ROUNDS: u32 = 3;
+const ROUNDS: u32 = 7;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
@@ -97,10 +97,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         Format::Csv => out.write_all(&report.csv()?)?,
         Format::Json => out.write_all(report.json()?.as_bytes())?,
     }
-    if !highlights.equal {
-        bail!("leaving samples out changed a highlight: please report this with the scene");
-    }
-    Ok(Outcome::Good)
+    Ok(if highlights.equal { Outcome::Good } else { Outcome::Fails })
 }
 
 /// The pipeline's answers, both ways.
@@ -255,7 +252,7 @@ fn materials(report: &RenderReport) -> Rows {
 fn regions(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
     let pixels = u64::from(report.width) * u64::from(report.height);
     let places = (pixels * report.lights as u64).max(1) as f64;
-    let share = |count: u64| format!("{:.2} %", 100.0 * count as f64 / places);
+    let share = |count: u64| format!("{:.2}\u{a0}%", 100.0 * count as f64 / places);
     let mut said: Vec<String> = Part::ALL
         .iter()
         .map(|&part| {
@@ -293,9 +290,10 @@ fn times(
     let [every, needed] = highlights.times.map(|time| time.as_secs_f64() * 1e3);
     let left_out = highlights.every_requests - highlights.needed.requests;
     let equal = if highlights.equal { "every bit is the same" } else { "BITS DIFFER" };
+    let saved = format!("{:.2} ms ({:.0}\u{a0}%)", every - needed, 100.0 * (1.0 - needed / every));
     let said = format!(
         "{left_out} of {} samples left out, as they face away or lie below the cut; {equal}. Highlights took \
-         {every:.2} ms with them and {needed:.2} ms without, rays {:.2} s, everything {:.2} s.",
+         {every:.2} ms with them and {needed:.2} ms without, which saved {saved}; rays {:.2} s, everything {:.2} s.",
         highlights.every_requests,
         traced.as_secs_f64(),
         all.as_secs_f64()

@@ -50,7 +50,7 @@ pub use highlight::{Answers, Part, reference};
 pub use methods::methods;
 pub use png::encode;
 pub use rays::{Ray, ray};
-pub use requests::{Group, MissingExponent, Pipeline, Which};
+pub use requests::{Group, MissingExponent, Pipeline, Which, bits};
 pub use samples::{Sample, Samples, SurfacePixel, samples};
 pub use shading::{Picture, shade};
 pub use sheet::SheetError;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use hw_model::datapath::front_end::Region;
 use hw_model::design::Design;
-use hw_model::format::Overflow;
+use hw_model::format::{Overflow, QFormat};
 use hw_model::quantise::quantise;
 use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
@@ -12,6 +12,13 @@ use thiserror::Error;
 
 use super::samples::Samples;
 use crate::scene::Scene;
+
+/// x of a sample in the bits of an input format: rounded to the nearest, a tie to even, and brought into the format.
+#[must_use]
+pub fn bits(x: f64, input: QFormat) -> i64 {
+    // Refused is only what is not finite, which no scene that was checked presents.
+    quantise(x, input, Rounding::NearestEven, Overflow::Saturate).unwrap_or(0)
+}
 
 /// An exponent of the scene that the hardware has not.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -101,12 +108,10 @@ impl<'a> Pipeline<'a> {
         self.design
     }
 
-    /// x in the pipeline's bits: rounded to the nearest, a tie to even, and brought into the format.
+    /// x in the pipeline's bits.
     #[must_use]
     pub fn bits(&self, x: f64) -> i64 {
-        let format = self.design.config().input;
-        // Refused is only what is not finite, which no scene that was checked presents.
-        quantise(x, format, Rounding::NearestEven, Overflow::Saturate).unwrap_or(0)
+        bits(x, self.design.config().input)
     }
 
     /// The requests of these samples: a group for each exponent that has any, in rising order.

@@ -13,7 +13,7 @@ use super::{Light, Material, Origin, Scene, Shape, Surface, View, mesh};
 
 /// Pixels of the longest side of a picture.
 pub const GREATEST_SIDE: u32 = 16_384;
-/// Pixels times lights of a picture: 64 million take about 3 GB.
+/// Pixels times lights of a picture: 64 million take some 4 GB.
 pub const MOST_SAMPLES: u64 = 1 << 26;
 /// The most lights.
 const MOST_LIGHTS: usize = 16;

