@@ -290,7 +290,12 @@ fn times(
     let [every, needed] = highlights.times.map(|time| time.as_secs_f64() * 1e3);
     let left_out = highlights.every_requests - highlights.needed.requests;
     let equal = if highlights.equal { "every bit is the same" } else { "BITS DIFFER" };
-    let saved = format!("{:.2} ms ({:.0}\u{a0}%)", every - needed, 100.0 * (1.0 - needed / every));
+    let saved = match every - needed {
+        saved if left_out > 0 && saved > 0.0 => {
+            format!("{saved:.2} ms ({:.0}\u{a0}%)", 100.0 * saved / every)
+        }
+        _ => "nothing".to_owned(),
+    };
     let said = format!(
         "{left_out} of {} samples left out, as they face away or lie below the cut; {equal}. Highlights took \
          {every:.2} ms with them and {needed:.2} ms without, which saved {saved}; rays {:.2} s, everything {:.2} s.",

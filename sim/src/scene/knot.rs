@@ -96,8 +96,8 @@ impl Knot {
             for side in 0..self.sides {
                 let here = [corner(along, side), corner(along, side + 1)];
                 let next = [corner(along + 1, side), corner(along + 1, side + 1)];
-                let _ = writeln!(text, "f {} {} {}", here[0], next[0], here[1]);
-                let _ = writeln!(text, "f {} {} {}", here[1], next[0], next[1]);
+                let _ = writeln!(text, "f {} {} {}", here[0], here[1], next[0]);
+                let _ = writeln!(text, "f {} {} {}", here[1], next[1], next[0]);
             }
         }
         text

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::ExitCode;
 
+use blysk_tests::rtl::mutants::proof::Judgement;
 use blysk_tests::rtl::mutants::{
     Bench, DISTANT_ROWS, HANDSHAKE, NETLIST, Outcome, class, edits, netlist, own_sources, preset,
     rom,
@@ -15,13 +16,13 @@ use blysk_tests::rtl::simulators::{self, Simulator, repository};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::design::Design;
 use rayon::prelude::*;
-use vectors::faults::{Compact, Fault, Logic, Workers};
+use vectors::faults::{Compact, Fault, Workers};
 use vectors::{Bundle, Strategy};
 
 /// Netlist mutations of each preset, and the seed that chooses them and the distant rows.
 const MUTATIONS: usize = 500;
 const SEED: u64 = 1;
-/// How long a proof of equivalence may take, in seconds.
+/// How long a question of a proof of equivalence may take, in seconds.
 const PROOF_SECONDS: u32 = 60;
 /// Vectors of the default bundle.
 const VECTORS: u64 = 4096;
@@ -64,8 +65,40 @@ struct Mutant {
     name: String,
     by_default: Option<String>,
     by_compact: Option<String>,
-    /// Why it may survive; none where it should be killed.
-    equivalent: Option<&'static str>,
+    known: Known,
+}
+
+/// What is known of a mutant beside what the vectors find.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Known {
+    /// Nothing: it should be killed.
+    Nothing,
+    /// Why it may survive.
+    Equivalent(&'static str),
+    /// An input that shows it: the address, and the bits of x.
+    Visible(u64, u64),
+}
+
+impl std::fmt::Display for Known {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Nothing => f.write_str("an escape, not shown to be equivalent"),
+            Self::Equivalent(why) => f.write_str(why),
+            Self::Visible(address, x) => {
+                write!(f, "an escape: address {address} with x = 0x{x:x} shows it")
+            }
+        }
+    }
+}
+
+impl From<Judgement> for Known {
+    fn from(judgement: Judgement) -> Self {
+        match judgement {
+            Judgement::Equivalent(why) => Self::Equivalent(why),
+            Judgement::Visible { address, x } => Self::Visible(address, x),
+            Judgement::Open => Self::Nothing,
+        }
+    }
 }
 
 impl Mutant {
@@ -75,16 +108,15 @@ impl Mutant {
     }
 
     fn fate(&self, killed_by: Option<&String>) -> &'static str {
-        match (killed_by, self.equivalent) {
+        match (killed_by, self.known) {
             (Some(_), _) => "killed",
-            (None, Some(_)) => "equivalent",
-            (None, None) => "escaped",
+            (None, Known::Equivalent(_)) => "equivalent",
+            (None, _) => "escaped",
         }
     }
 }
 
 const BY_INPUTS: &str = "every input gives the same answer (the model, exhaustively)";
-const BY_PROOF: &str = "the same next state from every state (SAT)";
 
 struct Campaign<'a> {
     name: &'a str,
@@ -112,7 +144,7 @@ impl Campaign<'_> {
             (self.bench("default", &default)?, self.bench("compact", &smallest)?);
         let mut mutants = self.rom(&default, &smallest, &equivalent)?;
         mutants.extend(self.edits(&default, &smallest, &equivalent)?);
-        mutants.extend(self.netlist(&default, &smallest, &self.states(&equivalent))?);
+        mutants.extend(self.netlist(&default, &smallest)?);
         Ok(mutants)
     }
 
@@ -143,7 +175,7 @@ impl Campaign<'_> {
         let by_compact = rom::run(smallest, self.verilator, self.design, &faults)?;
         let known = faults.iter().map(|wrong| {
             let proved = wrong.fault().is_some_and(|fault| equivalent.contains(&fault));
-            (wrong.class(), proved.then_some(BY_INPUTS))
+            (wrong.class(), by_inputs(proved))
         });
         Ok(merge(known, by_default, by_compact))
     }
@@ -161,34 +193,13 @@ impl Campaign<'_> {
             edits.par_iter().map(|edit| bench.run_edit(self.icarus, edit)).collect()
         };
         let known = edits.iter().map(|edit| {
-            let proof = edit.fault.filter(|fault| equivalent.contains(fault)).map(|_| BY_INPUTS);
-            (edit.fault.map_or(HANDSHAKE, class), proof)
+            let proved = edit.fault.is_some_and(|fault| equivalent.contains(&fault));
+            (edit.fault.map_or(HANDSHAKE, class), by_inputs(proved))
         });
         Ok(merge(known, run(default)?, run(smallest)?))
     }
 
-    /// What is known of t3 where the model has shown that no input makes the clamp act.
-    fn states(&self, equivalent: &[Fault]) -> Vec<String> {
-        let datapath = self.design.datapath();
-        let idle = [Logic::NoClampAbove, Logic::NoClampBelow]
-            .into_iter()
-            .all(|logic| equivalent.contains(&Fault::Logic(logic)));
-        // t3 goes straight to the clamp where there is no tail to wait for.
-        let formats = datapath.formats();
-        match &formats.polynomial {
-            Some(polynomial) if idle && formats.tail.is_none() => {
-                netlist::unclamped(polynomial.t3, datapath.output_one())
-            }
-            _ => Vec::new(),
-        }
-    }
-
-    fn netlist(
-        &self,
-        default: &Bench,
-        smallest: &Bench,
-        states: &[String],
-    ) -> Result<Vec<Mutant>, Failure> {
+    fn netlist(&self, default: &Bench, smallest: &Bench) -> Result<Vec<Mutant>, Failure> {
         println!("{}: {MUTATIONS} netlist mutations, seed {SEED}", self.name);
         let mut found = Vec::new();
         let mut list = Vec::new();
@@ -205,35 +216,34 @@ impl Campaign<'_> {
             .zip(&by_compact)
             .map(|(default, compact)| default.killed_by.is_none() && compact.killed_by.is_none())
             .collect();
-        let proofs: Vec<Option<&'static str>> = list
-            .par_iter()
-            .zip(survivors)
-            .map(|(mutation, survives)| {
-                let directory = &default.directory;
-                let proved =
-                    survives && netlist::is_equivalent(directory, mutation, states, PROOF_SECONDS)?;
-                Ok(proved.then_some(BY_PROOF))
-            })
-            .collect::<Result<_, Failure>>()?;
-        let known = proofs.into_iter().map(|proof| (NETLIST, proof));
+        println!("{}: judging the survivors", self.name);
+        let datapath = self.design.datapath();
+        let (directory, seconds) = (&default.directory, PROOF_SECONDS);
+        let judged = netlist::judge(directory, datapath, &list, &survivors, seconds)?;
+        let known =
+            judged.into_iter().map(|judged| (NETLIST, judged.map_or(Known::Nothing, Known::from)));
         Ok(merge(known, by_default, by_compact))
     }
 }
 
-/// `known` of each mutant is its class, and why it may survive.
+const fn by_inputs(proved: bool) -> Known {
+    if proved { Known::Equivalent(BY_INPUTS) } else { Known::Nothing }
+}
+
+/// `known` of each mutant is its class, and what is known of it.
 fn merge(
-    known: impl Iterator<Item = (&'static str, Option<&'static str>)>,
+    known: impl Iterator<Item = (&'static str, Known)>,
     by_default: Vec<Outcome>,
     by_compact: Vec<Outcome>,
 ) -> Vec<Mutant> {
     let outcomes = by_default.into_iter().zip(by_compact).zip(known);
     outcomes
-        .map(|((default, compact), (class, equivalent))| Mutant {
+        .map(|((default, compact), (class, known))| Mutant {
             class,
             name: default.name,
             by_default: default.killed_by,
             by_compact: compact.killed_by,
-            equivalent,
+            known,
         })
         .collect()
 }
@@ -295,8 +305,7 @@ fn judge(preset: &str, mutants: &[Mutant]) -> bool {
             (None, Some(_)) => "the default bundle",
             _ => "the compact set",
         };
-        let why = mutant.equivalent.unwrap_or("not shown to be equivalent: an escape");
-        println!("  {} survives {place}: {why}", mutant.name);
+        println!("  {} survives {place}: {}", mutant.name, mutant.known);
     }
     whole.all > 0 && whole.percent() >= 99.0 && model.all > 0 && model.killed == model.all
 }
@@ -307,6 +316,8 @@ fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
         csv.write_record(["class", "mutant", "default", "by", "compact", "by", "why"])?;
         for mutant in mutants {
             let (default, compact) = (mutant.by_default.as_ref(), mutant.by_compact.as_ref());
+            let survives = default.is_none() || compact.is_none();
+            let why = if survives { mutant.known.to_string() } else { String::new() };
             csv.write_record([
                 mutant.class,
                 &mutant.name,
@@ -314,7 +325,7 @@ fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
                 default.map_or("", String::as_str),
                 mutant.fate(compact),
                 compact.map_or("", String::as_str),
-                mutant.equivalent.unwrap_or(""),
+                &why,
             ])?;
         }
         csv.flush()?;

@@ -63,7 +63,7 @@ fn json_that_is_no_scene() {
         (&edited("\"exponent\": 8, ", ""), &["`materials[1]`", "missing field `exponent`"]),
         (&edited("\"exponent\": 8", "\"exponent\": \"8\""), &["`materials[1].exponent`", "string"]),
         (&edited("\"exponent\": 8", "\"exponent\": NaN"), &["line 11 column"]),
-        (&edited("[3, 3, 3]", "[3, 3]"), &["`lights[1].point.position", "3 elements"]),
+        (&edited("[3, 3, 3]", "[3, 3]"), &["`lights[1].point.position", "array of length 3"]),
         (&edited("[3, 3, 3]", "[3, 3, 3, 3]"), &["`lights[1].point.position"]),
         (&edited("[3, 3, 3]", "[3, 3, null]"), &["`lights[1].point.position[2]`", "null"]),
         (&edited("\"width\": 16", "\"width\": -16"), &["`image.width`", "-16"]),

@@ -6,6 +6,7 @@
 
 pub mod edits;
 pub mod netlist;
+pub mod proof;
 pub mod rom;
 
 use std::path::{Path, PathBuf};

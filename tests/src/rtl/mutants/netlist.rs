@@ -3,11 +3,12 @@
 //! All of them are in one netlist, each switched on by its number, so that it is compiled once.
 
 use std::path::Path;
-use std::process::Command;
 
-use hw_model::format::QFormat;
+use hw_model::datapath::Datapath;
 use rayon::prelude::*;
 
+use super::proof::tools::yosys;
+use super::proof::{Judgement, Prover};
 use super::{Bench, Outcome};
 use crate::rtl::simulators::Simulator;
 use crate::rtl::{Failure, failed};
@@ -19,7 +20,9 @@ const DEFINE: &str = "blysk_netlist.svh";
 /// The list of mutations, one Yosys command a line.
 const LIST: &str = "mutations.ys";
 /// The netlist before it is mutated, for proofs.
-const RIGHT: &str = "right.il";
+pub const RIGHT: &str = "right.il";
+/// What registers begin with: anything, then all 0, then all 1. A mutant may leave one without ever loading it.
+const POWER_UPS: [&[&str]; 3] = [&[], &["+verilator+rand+reset+0"], &["+verilator+rand+reset+1"]];
 
 /// Writes the netlist with `count` mutations, chosen by `seed`; returns what each is.
 ///
@@ -50,14 +53,7 @@ pub fn sources() -> String {
     format!("{DEFINE} {NETLIST} blysk_mutated.sv")
 }
 
-fn yosys(directory: &Path, script: &str) -> Result<String, Failure> {
-    let output = Command::new("yosys").args(["-q", "-p", script]).current_dir(directory).output();
-    let output = output.map_err(|error| Failure(format!("cannot run yosys: {error}")))?;
-    let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
-    if output.status.success() { Ok(text) } else { failed(text) }
-}
-
-/// Runs each mutation with the built testbench.
+/// Runs each mutation with the built testbench, from every power-up until it is killed.
 ///
 /// # Errors
 /// When a run gives no verdict, or the netlist is wrong without a mutation.
@@ -67,15 +63,44 @@ pub fn run(
     mutations: &[String],
 ) -> Result<Vec<Outcome>, Failure> {
     let place = bench.place("netlist", &[])?;
-    if let Some(found) = bench.run(simulator, &place, &["+mutant=0".to_owned()])? {
+    let killed_by = |number: usize| -> Result<Option<String>, Failure> {
+        for power_up in POWER_UPS {
+            let power_up = power_up.iter().map(|&argument| argument.to_owned());
+            let arguments: Vec<String> = power_up.chain([format!("+mutant={number}")]).collect();
+            if let Some(found) = bench.run(simulator, &place, &arguments)? {
+                return Ok(Some(found));
+            }
+        }
+        Ok(None)
+    };
+    if let Some(found) = killed_by(0)? {
         return failed(format!("the netlist is wrong without any mutation: {found}"));
     }
     let outcome = |(index, mutation): (usize, &String)| {
         let number = index + 1;
-        let killed_by = bench.run(simulator, &place, &[format!("+mutant={number}")])?;
-        Ok(Outcome { name: describe(number, mutation), killed_by })
+        Ok(Outcome { name: describe(number, mutation), killed_by: killed_by(number)? })
     };
     mutations.par_iter().enumerate().map(outcome).collect()
+}
+
+/// Judges the mutations that survived; none for the others. A proof may take so many seconds for each
+/// question.
+///
+/// # Errors
+/// When a tool fails, or the netlist is not one that can be judged.
+pub fn judge(
+    directory: &Path,
+    datapath: &Datapath,
+    mutations: &[String],
+    survives: &[bool],
+    seconds: u32,
+) -> Result<Vec<Option<Judgement>>, Failure> {
+    let prover = Prover::new(directory, RIGHT, datapath, seconds)?;
+    let judged =
+        mutations.par_iter().zip(survives).enumerate().map(|(index, (mutation, survives))| {
+            survives.then(|| prover.judge(index + 1, &without_control(mutation))).transpose()
+        });
+    judged.collect()
 }
 
 /// `netlist:17 inv t1 …`: what Yosys was told, without what is the same in all.
@@ -90,54 +115,9 @@ fn describe(number: usize, mutation: &str) -> String {
     format!("netlist:{number} {}", parts.join(" "))
 }
 
-/// Whether a mutation changes nothing, by SAT: from any state and inputs the mutated netlist takes
-/// the same next state into every register and shows the same outputs. (That is more than is needed: one
-/// that only differs in states that never occur is not found to be equivalent.) `states` are values of
-/// registers of which one always holds; the proof is made for each of them.
-///
-/// # Errors
-/// When Yosys cannot be run.
-pub fn is_equivalent(
-    directory: &Path,
-    mutation: &str,
-    states: &[String],
-    seconds: u32,
-) -> Result<bool, Failure> {
-    let plain = without_control(mutation);
-    let proofs: Vec<String> = if states.is_empty() {
-        vec![sat("", seconds)]
-    } else {
-        states.iter().map(|state| sat(state, seconds)).collect()
-    };
-    // The flip-flops become inputs and outputs, bit by bit; what both netlists share is merged.
-    let script = format!(
-        "read_rtlil {RIGHT}; rename blysk right; read_rtlil {RIGHT}; {plain}; rename blysk wrong; \
-         dffunmap; simplemap t:$dff; splitnets; opt_clean; expose -dff -evert-dff right wrong; opt_clean; \
-         miter -equiv -flatten -make_outputs right wrong miter; hierarchy -top miter; \
-         memory_map -rom-only; opt -full -nodffe -nosdff; opt_merge -share_all; \
-         opt -full -nodffe -nosdff; {}",
-        proofs.join("; ")
-    );
-    let output = Command::new("yosys").args(["-q", "-p", &script]).current_dir(directory).output();
-    let output = output.map_err(|error| Failure(format!("cannot run yosys: {error}")))?;
-    Ok(output.status.success())
-}
-
-fn sat(state: &str, seconds: u32) -> String {
-    format!("sat -timeout {seconds} {state} -prove trigger 0 -verify miter")
-}
-
-/// The values of t3 where no input makes the clamp act: below 1, and 1.
+/// A mutation that is always on: without what Yosys was told of the control input.
 #[must_use]
-pub fn unclamped(t3: QFormat, one: i64) -> Vec<String> {
-    let set = |place: u32, bit: i64| format!("-set \\in_clamp.t3_i[{place}].q {bit}");
-    let above = (0..t3.width()).filter(|&place| 1 << place >= one + one % 2);
-    let below_one: Vec<String> = above.map(|place| set(place, 0)).collect();
-    let is_one: Vec<String> = (0..t3.width()).map(|place| set(place, one >> place & 1)).collect();
-    vec![below_one.join(" "), is_one.join(" ")]
-}
-
-fn without_control(mutation: &str) -> String {
+pub fn without_control(mutation: &str) -> String {
     let words: Vec<&str> = mutation.split_whitespace().collect();
     match words.iter().position(|&word| word == "-ctrl") {
         Some(at) => [&words[..at], &words[at + 4..]].concat().join(" "),

@@ -1,0 +1,82 @@
+//! What the model knows of the registers: the least and the greatest value each of them takes.
+
+use hw_model::datapath::Datapath;
+use hw_model::datapath::reach::{PolynomialReach, Reach, TailReach};
+use vectors::rtl::probes;
+
+/// A register that only takes values of a range, whatever the input.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fact {
+    /// The rank.
+    pub rank: usize,
+    /// Its name in the RTL.
+    pub path: String,
+    /// The least value.
+    pub least: i64,
+    /// The greatest value.
+    pub greatest: i64,
+    /// True where the highest bit is a sign.
+    pub signed: bool,
+}
+
+/// The first rank of the divider.
+const FIRST_OF_DIVIDER: usize = 2;
+
+/// What is known of every register that the model's range analysis looks at ([`Datapath::polynomial_reach`],
+/// [`Datapath::tail_reach`]: exact, over every row and every x).
+#[must_use]
+pub fn facts(datapath: &Datapath) -> Vec<Fact> {
+    let (polynomial, tail) = (datapath.polynomial_reach(), datapath.tail_reach());
+    let digit_stages = datapath.divider().map_or(0, |divider| divider.digit_stages() as usize);
+    let known = probes::probes(datapath).into_iter().filter_map(|probe| {
+        let reach = match probe.register.name {
+            "remainder" if probe.rank != FIRST_OF_DIVIDER => None,
+            "digits" if probe.rank < FIRST_OF_DIVIDER + digit_stages => None,
+            name => of_polynomial(polynomial.as_ref(), name).or(of_tail(tail.as_ref(), name)),
+        }?;
+        Some(Fact {
+            rank: probe.rank,
+            path: probe.path,
+            least: reach.least.bits,
+            greatest: reach.greatest.bits,
+            signed: probe.register.format.is_signed(),
+        })
+    });
+    known.collect()
+}
+
+fn of_polynomial(reach: Option<&PolynomialReach>, name: &str) -> Option<Reach> {
+    let reach = reach?;
+    match name {
+        "v" => Some(reach.v),
+        "t1" => Some(reach.lines[0]),
+        "t2" => Some(reach.lines[1]),
+        "t3" => Some(reach.lines[2]),
+        _ => None,
+    }
+}
+
+fn of_tail(reach: Option<&TailReach>, name: &str) -> Option<Reach> {
+    let reach = reach?;
+    match name {
+        "tail_x" => Some(reach.x),
+        "divisor" => Some(reach.divisor),
+        "remainder" => Some(reach.first_remainder),
+        "digits" => Some(reach.quotient),
+        _ => None,
+    }
+}
+
+impl Fact {
+    /// The fact as Verilog says it of a value of this many bits.
+    #[must_use]
+    pub fn condition(&self, value: &str, width: usize) -> String {
+        let literal = |bits: i64| {
+            let sign = if bits < 0 { "-" } else { "" };
+            let kind = if self.signed { "sd" } else { "d" };
+            format!("{sign}{width}'{kind}{}", bits.unsigned_abs())
+        };
+        let value = if self.signed { format!("$signed({value})") } else { value.to_owned() };
+        format!("{value} >= {} && {value} <= {}", literal(self.least), literal(self.greatest))
+    }
+}
