@@ -5,7 +5,7 @@ use std::ops::Range;
 use hw_model::datapath::front_end::Region;
 use hw_model::design::Design;
 use hw_model::format::{Overflow, QFormat};
-use hw_model::quantise::quantise;
+use hw_model::quantise::{quantise, real};
 use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 use thiserror::Error;
@@ -62,6 +62,8 @@ pub(super) struct MaterialRow {
     exponent: f64,
     address: u32,
     cut: i64,
+    /// An x below this is zero without being asked; below every x where something answers down to 0.
+    zero_below: f64,
     pub(super) epicentre: i64,
     /// Index of the group of its exponent.
     group: usize,
@@ -84,15 +86,23 @@ impl<'a> Pipeline<'a> {
     pub fn new(design: &'a Design, scene: &Scene) -> Result<Self, MissingExponent> {
         let rom = design.rom();
         let exponents = scene.exponents();
+        let front_end = design.datapath().front_end();
+        // Rounding moves x by half a unit of its last place at most, so that a whole one below the cut stays below.
+        let zero_below = |cut: i64| match front_end.region(cut - 1, cut) {
+            Region::Zero => real(cut - 1, design.config().input),
+            Region::Polynomial | Region::Tail => f64::NEG_INFINITY,
+        };
         let row = |(index, exponent): (usize, f64)| {
             let Some(place) = rom.exponents().position(exponent) else {
                 let available = rom.exponents().to_string();
                 return Err(MissingExponent { index, exponent, available });
             };
+            let cut = rom.rows()[place].get(FieldName::Cut);
             Ok(MaterialRow {
                 exponent,
                 address: place as u32,
-                cut: rom.rows()[place].get(FieldName::Cut),
+                cut,
+                zero_below: zero_below(cut),
                 epicentre: design.rows()[place].first_of_epicentre(design.config()),
                 group: exponents.iter().position(|&n| n == exponent).unwrap_or_default(),
             })
@@ -125,12 +135,14 @@ impl<'a> Pipeline<'a> {
         let front_end = self.design.datapath().front_end();
         for index in range {
             let sample = samples.samples[index];
-            if which == Which::Needed && sample.faces_away() {
+            let row = &self.rows[usize::from(samples.material_of(index))];
+            let needed = which == Which::Needed;
+            if needed && (sample.faces_away() || sample.x < row.zero_below) {
                 continue;
             }
-            let row = &self.rows[usize::from(samples.material_of(index))];
             let x = self.bits(sample.x);
-            if which == Which::Needed && front_end.region(x, row.cut) == Region::Zero {
+            // What lies within a unit of the cut is known by its bits.
+            if needed && front_end.region(x, row.cut) == Region::Zero {
                 continue;
             }
             let group = &mut groups[row.group];

@@ -70,7 +70,7 @@ fn json_that_is_no_scene() {
         (&edited("\"width\": 16", "\"width\": 1.5"), &["`image.width`", "1.5"]),
         (
             &edited("\"name\"", "\"angle\": \"cook\", \"name\""),
-            &["`angle`", "`cook`", "`phong`, `blinn`"],
+            &["`angle`", "`cook`", "`phong`", "`blinn`"],
         ),
         (&edited("\"name\"", "\"name\": \"x\", \"name\""), &["duplicate field `name`"]),
     ] {
