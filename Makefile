@@ -40,7 +40,7 @@ docs: ## write the hardware reference, docs/hardware/, and docs/CLAIMS.md again
 	@mv target/claims.md docs/CLAIMS.md
 
 # One scene and preset to a line of the list below; each gives the named picture of `blysk render`.
-PICTURES = torus_knot:paper:pipeline:480x270 one_material:paper:methods:320x240 \
+PICTURES = torus_knot:paper:pipeline:480x270 one_material:paper:methods:240x180 \
 	many_materials:paper:pipeline:480x300 many_materials:paper:difference:480x300
 
 pictures: ## docs/pictures/, and the mesh and the schema of docs/scenes, written again

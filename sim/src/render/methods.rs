@@ -20,7 +20,7 @@ use crate::scene::{Image, Scene, Transfer};
 /// The longest side of a panel, in pixels; larger pictures show every k-th column and row.
 const PANEL: u32 = 480;
 /// A line of words needs so many pixels.
-const LEAST_WIDTH: u32 = 220;
+const LEAST_WIDTH: u32 = 260;
 const WORDS_HEIGHT: u32 = 24;
 const GAP: u32 = 8;
 const COLUMNS: u32 = 3;

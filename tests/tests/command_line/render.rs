@@ -190,7 +190,7 @@ fn the_pictures_of_the_documents_are_current() {
     let documents = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/pictures");
     for (name, size, pictures) in [
         ("torus_knot", "480x270", &[("pipeline.png", "torus_knot_paper.png")][..]),
-        ("one_material", "320x240", &[("methods.png", "one_material_methods.png")]),
+        ("one_material", "240x180", &[("methods.png", "one_material_methods.png")]),
         (
             "many_materials",
             "480x300",
