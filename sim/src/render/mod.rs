@@ -48,7 +48,7 @@ pub use figures::{Cycles, Difference, MaterialFigures, by_material, difference};
 pub use heat::heat_map;
 pub use highlight::{Answers, Part, reference};
 pub use methods::methods;
-pub use png::encode;
+pub use png::{PngError, encode};
 pub use rays::{Ray, ray};
 pub use requests::{Group, MissingExponent, Pipeline, Which, bits};
 pub use samples::{Sample, Samples, SurfacePixel, samples};

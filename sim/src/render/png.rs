@@ -1,6 +1,7 @@
 //! Pictures as PNG: the only file that knows the crate that writes it.
 
-use png::{BitDepth, ColorType, Encoder, EncodingError, ScaledFloat, SrgbRenderingIntent};
+pub use png::EncodingError as PngError;
+use png::{BitDepth, ColorType, Encoder, ScaledFloat, SrgbRenderingIntent};
 
 use super::shading::Picture;
 use crate::scene::Transfer;
@@ -10,7 +11,7 @@ use crate::scene::Transfer;
 ///
 /// # Errors
 /// Never for a picture that has a pixel; the type says what the crate says.
-pub fn encode(picture: &Picture, transfer: Transfer) -> Result<Vec<u8>, EncodingError> {
+pub fn encode(picture: &Picture, transfer: Transfer) -> Result<Vec<u8>, PngError> {
     let codes = picture.codes.iter().flatten().copied();
     let (depth, bytes) = match picture.bits {
         8 => (BitDepth::Eight, codes.map(|code| code as u8).collect()),
@@ -26,7 +27,7 @@ pub fn encode(picture: &Picture, transfer: Transfer) -> Result<Vec<u8>, Encoding
 ///
 /// # Errors
 /// As [`encode`].
-pub(super) fn encode_bytes(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, EncodingError> {
+pub(super) fn encode_bytes(width: u32, height: u32, rgb: &[u8]) -> Result<Vec<u8>, PngError> {
     written(width, height, BitDepth::Eight, Transfer::Srgb, rgb)
 }
 
@@ -36,7 +37,7 @@ fn written(
     depth: BitDepth,
     transfer: Transfer,
     bytes: &[u8],
-) -> Result<Vec<u8>, EncodingError> {
+) -> Result<Vec<u8>, PngError> {
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, width, height);
     encoder.set_color(ColorType::Rgb);

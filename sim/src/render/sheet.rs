@@ -1,9 +1,8 @@
 //! A picture about pictures: words and scales as drawn by `plot`, and pixels put on it.
 
-use png::EncodingError;
 use thiserror::Error;
 
-use super::png::encode_bytes;
+use super::png::{PngError, encode_bytes};
 use crate::plot::{PlotError, svg_to_pixels};
 
 /// Why such a picture was not made.
@@ -15,7 +14,7 @@ pub enum SheetError {
     Words(#[from] PlotError),
     /// Its file.
     #[error("the PNG cannot be encoded: {0}")]
-    Png(#[from] EncodingError),
+    Png(#[from] PngError),
 }
 
 /// White paper of so many pixels.

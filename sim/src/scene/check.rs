@@ -254,7 +254,7 @@ fn direction(path: &str, triple: Triple) -> Checked<Vector> {
 }
 
 fn size(path: &str, size: f64) -> Checked<f64> {
-    if size >= 1.0 / GREATEST_COORDINATE && size <= GREATEST_COORDINATE {
+    if (1.0 / GREATEST_COORDINATE..=GREATEST_COORDINATE).contains(&size) {
         return Ok(size);
     }
     wrong(path, format!("{size} is out of range; use a number above 0, from 1e-9 to 1e9"))

@@ -51,7 +51,8 @@ impl Knot {
                 return Err(KnotError(format!("--{name} {value}: use 1 to {greatest}")));
             }
         }
-        if (2..=around.min(through)).any(|d| around % d == 0 && through % d == 0) {
+        let common = |d: u32| around.is_multiple_of(d) && through.is_multiple_of(d);
+        if (2..=around.min(through)).any(common) {
             let said = format!(
                 "--around {around} and --through {through} have a common divisor, and the line would \
                  close early; use for example 2 and 3"

@@ -113,8 +113,8 @@ fn coordinates<'a>(
     for number in &mut numbers {
         let word = words.next().ok_or_else(|| format!("a number is missing; write {form}"))?;
         *number = word.parse().map_err(|_| format!("{word:?} is not a number; write {form}"))?;
-        // False for NaN.
-        if !(number.abs() <= GREATEST_COORDINATE) {
+        // NaN is in no range.
+        if !(-GREATEST_COORDINATE..=GREATEST_COORDINATE).contains(number) {
             return Err(format!("{word} is not a coordinate; use numbers from -1e9 to 1e9"));
         }
     }
