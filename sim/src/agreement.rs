@@ -7,7 +7,7 @@ use thiserror::Error;
 use vectors::rtl::probes::Probe;
 use vectors::rtl::register_log::{RegisterLine, RegisterLog, RegisterLogError};
 
-use crate::pipeline::{Inputs, Pipeline};
+use crate::pipeline::{Inputs, Pipeline, Ranks};
 
 /// What was compared, and agreed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -82,7 +82,7 @@ pub fn compare(datapath: &Datapath, log: impl BufRead) -> Result<Agreement, Disa
             let cycle = Compared { cycle: agreement.cycles, line };
             cycle.port("in_ready_o", line.in_ready, outputs.in_ready)?;
             cycle.port("out_valid_o", line.out_valid, outputs.out_valid)?;
-            agreement.registers += cycle.ranks(&pipeline, &probes)?;
+            agreement.registers += cycle.ranks(datapath, pipeline.ranks(), &probes)?;
         }
         agreement.cycles += 1;
         agreement.resets += u64::from(inputs.reset);
@@ -109,14 +109,19 @@ struct Compared<'a> {
 }
 
 impl Compared<'_> {
-    fn ranks(&self, pipeline: &Pipeline<'_>, probes: &[Probe]) -> Result<u64, Disagreement> {
+    fn ranks(
+        &self,
+        datapath: &Datapath,
+        ranks: Ranks<'_>,
+        probes: &[Probe],
+    ) -> Result<u64, Disagreement> {
         let mut words = self.line.words.iter();
         let mut probes = probes.iter().peekable();
         let mut compared = 0;
-        for (index, rank) in pipeline.ranks().iter().enumerate() {
+        for (index, rank) in ranks.iter().enumerate() {
             let valid = words.next().copied().flatten();
             if valid != Some(u64::from(rank.valid)) {
-                let name = format!("{}.valid", pipeline.datapath().rank_name(index));
+                let name = format!("{}.valid", datapath.rank_name(index));
                 return Err(self.differs(name, valid, u64::from(rank.valid)));
             }
             compared += 1;

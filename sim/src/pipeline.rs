@@ -14,7 +14,7 @@
 //! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
 //!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 
-use hw_model::datapath::{Datapath, Flight, Logic, Signals, Slots, Status};
+use hw_model::datapath::{Datapath, Flight, Logic, Signals, Status};
 
 /// What drives the pipeline during one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,9 +59,10 @@ pub struct Rank {
 #[derive(Debug, Clone, Copy)]
 pub struct Ranks<'a> {
     datapath: &'a Datapath,
-    valid: u128,
-    slots: &'a Slots,
+    ranks: usize,
+    places: Places,
     flights: &'a [Flight],
+    remains: &'a Remains,
 }
 
 impl<'a> Ranks<'a> {
@@ -71,9 +72,13 @@ impl<'a> Ranks<'a> {
     /// When there is no such rank.
     #[must_use]
     pub fn rank(&self, rank: usize) -> Rank {
-        let flight = self.flights.get(usize::from(self.slots.get(rank)));
+        assert!(rank < self.ranks);
+        let flight = match self.places.shown(rank) {
+            Some(number) => Some(&self.flights[number as usize & (self.flights.len() - 1)]),
+            None => self.remains.shown(rank),
+        };
         Rank {
-            valid: self.valid >> rank & 1 == 1,
+            valid: self.places.valid >> rank & 1 == 1,
             loaded: flight.is_some(),
             signals: flight.map(|flight| self.datapath.shown(rank, flight)).unwrap_or_default(),
         }
@@ -81,65 +86,122 @@ impl<'a> Ranks<'a> {
 
     /// All of them.
     pub fn iter(self) -> impl Iterator<Item = Rank> + use<'a> {
-        (0..self.slots.ranks()).map(move |rank| self.rank(rank))
+        (0..self.ranks).map(move |rank| self.rank(rank))
     }
 
     /// The last, which shows the result.
     #[must_use]
     pub fn last(&self) -> Rank {
-        self.rank(self.slots.ranks() - 1)
+        self.rank(self.ranks - 1)
     }
 
     /// The number of valid flags that are set.
     #[must_use]
     pub const fn in_flight(&self) -> u32 {
-        self.valid.count_ones()
+        self.places.valid.count_ones()
     }
+}
+
+/// Where the requests are. They are numbered as they enter.
+///
+/// Requests do not overtake each other, so the valid flags and the number of those that have left say which request
+/// stands where: behind a rank are those that left and one for each valid flag from it on. The last of these is what
+/// the rank shows, whether it still holds it or has passed it on.
+#[derive(Debug, Clone, Copy)]
+struct Places {
+    /// A flag of every rank is a bit.
+    valid: u128,
+    /// Requests that left, counting those that a reset lost.
+    left: u64,
+    /// The same when the last reset ended.
+    before: u64,
+}
+
+impl Places {
+    /// The number of the request that a rank shows; none before it has loaded one since the last reset.
+    #[inline]
+    fn shown(&self, rank: usize) -> Option<u64> {
+        let passed = self.left + u64::from((self.valid >> rank).count_ones());
+        (passed > self.before).then(|| passed - 1)
+    }
+}
+
+/// What ranks showed at the last reset, which clears flags but no data.
+#[derive(Debug, Clone)]
+struct Remains {
+    /// Ranks that had loaded a request: a bit each.
+    loaded: u128,
+    flights: Vec<Flight>,
+}
+
+impl Remains {
+    fn shown(&self, rank: usize) -> Option<&Flight> {
+        (self.loaded >> rank & 1 == 1).then(|| &self.flights[rank])
+    }
+}
+
+/// A request and its result.
+#[derive(Debug, Clone, Copy, Default)]
+struct Request {
+    address: u32,
+    x: i64,
+    intensity: i64,
+    status: Status,
 }
 
 /// The clocked pipeline of one configuration.
 ///
-/// A rank holds the number of the request it shows (see [`Flight`]); a flag of every rank is a bit of one word.
-/// So a cycle moves a few bytes, computes the request that enters, and allocates nothing.
+/// A cycle moves flags and counters only, computes the result of the request that enters, and allocates nothing. What
+/// other registers hold is computed when somebody looks ([`Pipeline::ranks`]).
 #[derive(Debug, Clone)]
 pub struct Pipeline<'a> {
     datapath: &'a Datapath,
     logic: Logic,
-    /// Every rank's bit.
+    ranks: usize,
+    /// Every rank's bit, and the last one's.
     all: u128,
-    valid_q: u128,
+    last: u128,
+    places_q: Places,
     valid_d: u128,
-    /// The ranks that load at the edge.
-    loads_d: u128,
+    reset_d: bool,
+    takes_d: bool,
+    leaves_d: bool,
     request_d: (u32, i64),
-    /// The request that each rank shows; [`NOTHING`] before the first.
-    slots: Slots,
+    /// Requests that entered.
+    entered: u64,
+    /// The last of them, each in the place of its number; more than there are ranks, and a power of two.
+    requests: Vec<Request>,
+    /// The same with all their values, of requests up to `looked_at`.
     flights: Vec<Flight>,
-    /// Requests that no rank shows. Ranks show as many as they are at most, so with one more there is always
-    /// room for the next.
-    free: Vec<u8>,
+    looked_at: u64,
+    remains: Remains,
 }
-
-/// The number of no request. A division has 63 quotient bits at most, so there are far fewer ranks.
-const NOTHING: u8 = u8::MAX;
 
 impl<'a> Pipeline<'a> {
     /// An empty pipeline, as after reset.
     #[must_use]
     pub fn new(datapath: &'a Datapath) -> Self {
         let ranks = datapath.rank_count();
+        // A division has 63 quotient bits at most.
         debug_assert!(ranks < 128);
+        let places = (ranks + 1).next_power_of_two();
         Self {
             datapath,
             logic: datapath.logic(),
+            ranks,
             all: (1 << ranks) - 1,
-            valid_q: 0,
+            last: 1 << (ranks - 1),
+            places_q: Places { valid: 0, left: 0, before: 0 },
             valid_d: 0,
-            loads_d: 0,
+            reset_d: false,
+            takes_d: false,
+            leaves_d: false,
             request_d: (0, 0),
-            slots: Slots::new(ranks, NOTHING),
-            flights: vec![datapath.flight(); ranks + 1],
-            free: (0..=ranks as u8).collect(),
+            entered: 0,
+            requests: vec![Request::default(); places],
+            flights: vec![datapath.flight(); places],
+            looked_at: 0,
+            remains: Remains { loaded: 0, flights: vec![datapath.flight(); ranks] },
         }
     }
 
@@ -151,19 +213,26 @@ impl<'a> Pipeline<'a> {
 
     /// The registers as they are before the next edge.
     #[must_use]
-    pub fn ranks(&self) -> Ranks<'_> {
-        let Self { datapath, valid_q: valid, slots, flights, .. } = self;
-        Ranks { datapath, valid: *valid, slots, flights }
+    pub fn ranks(&mut self) -> Ranks<'_> {
+        let places = self.flights.len() as u64;
+        for number in self.looked_at.max(self.entered.saturating_sub(places))..self.entered {
+            let place = self.place(number);
+            let Request { address, x, .. } = self.requests[place];
+            self.logic.enter(self.datapath, address, x, &mut self.flights[place]);
+        }
+        self.looked_at = self.entered;
+        let Self { datapath, ranks, places_q: places, flights, remains, .. } = self;
+        Ranks { datapath, ranks: *ranks, places: *places, flights, remains }
     }
 
     /// True when no rank holds a request.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
-        self.valid_q == 0
+        self.places_q.valid == 0
     }
 
     /// One clock cycle: what an RTL simulator shows at the rising edge, and then the edge.
-    #[inline]
+    #[inline(always)]
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
         let outputs = self.combinational(inputs);
         self.clock();
@@ -174,77 +243,80 @@ impl<'a> Pipeline<'a> {
     ///
     /// Rule 2, written out: a rank advances when the output is taken or any rank from it on is empty, that is,
     /// when it is not above the last empty one.
-    #[inline]
+    #[inline(always)]
     pub fn combinational(&mut self, inputs: &Inputs) -> Outputs {
-        let empty = self.all & !self.valid_q;
-        let upto_last_empty = u128::MAX.checked_shr(empty.leading_zeros()).unwrap_or(0);
-        let advance = if inputs.out_ready { self.all } else { upto_last_empty };
+        let valid = self.places_q.valid;
         let request = inputs.in_valid && !inputs.reset;
-        let offered = (self.valid_q << 1 | u128::from(request)) & self.all;
-        self.loads_d = advance & offered;
-        let valid = self.loads_d | (self.valid_q & !advance);
-        self.valid_d = if inputs.reset { 0 } else { valid };
+        let offered = (valid << 1 | u128::from(request)) & self.all;
+        let advances = if inputs.out_ready {
+            self.valid_d = offered;
+            true
+        } else {
+            let empty = self.all & !valid;
+            let advance = u128::MAX.checked_shr(empty.leading_zeros()).unwrap_or(0);
+            self.valid_d = advance & offered | valid & !advance;
+            empty != 0
+        };
+        let out_valid = valid & self.last != 0;
+        self.takes_d = request && advances;
+        self.leaves_d = out_valid && inputs.out_ready;
+        self.reset_d = inputs.reset;
         self.request_d = (inputs.address, inputs.x);
-        let last = self.slots.ranks() - 1;
-        let shown = self.flights.get(usize::from(self.slots.get(last)));
-        Outputs {
-            in_ready: advance & 1 == 1 && !inputs.reset,
-            out_valid: self.valid_q >> last & 1 == 1,
-            intensity: shown.map_or(0, Flight::intensity),
-            status: shown.map_or(Status::default(), Flight::status),
+        let (intensity, status) = if out_valid {
+            // The request that leaves next.
+            let request = &self.requests[self.place(self.places_q.left)];
+            (request.intensity, request.status)
+        } else {
+            self.last_result()
+        };
+        Outputs { in_ready: advances && !inputs.reset, out_valid, intensity, status }
+    }
+
+    /// What the last rank shows while it is empty: what it held before.
+    fn last_result(&self) -> (i64, Status) {
+        let last = self.ranks - 1;
+        if let Some(number) = self.places_q.shown(last) {
+            let request = &self.requests[self.place(number)];
+            return (request.intensity, request.status);
         }
+        self.remains
+            .shown(last)
+            .map_or_else(Default::default, |flight| (flight.intensity(), flight.status()))
     }
 
     /// The rising edge.
-    #[inline]
+    #[inline(always)]
     pub fn clock(&mut self) {
-        self.valid_q = self.valid_d;
-        if self.loads_d != 0 {
-            self.shift();
+        if self.takes_d {
+            let (address, x) = self.request_d;
+            let (intensity, status) = self.logic.result(self.datapath, address, x);
+            let place = self.place(self.entered);
+            self.requests[place] = Request { address, x, intensity, status };
+            self.entered += 1;
+        }
+        self.places_q.valid = self.valid_d;
+        self.places_q.left += u64::from(self.leaves_d);
+        if self.reset_d {
+            self.reset();
         }
     }
 
-    /// Gives every loading rank the request of the rank before it, or the new one.
-    #[inline]
-    fn shift(&mut self) {
-        let last = self.slots.ranks() - 1;
-        if self.loads_d == self.all && self.slots.get(last) != NOTHING {
-            // What the last rank gives up is the new one's.
-            self.slots.turn();
-            self.enter();
-            return;
-        }
-        let mut after = NOTHING;
-        for rank in (1..=last).rev() {
-            let shown = self.slots.get(rank);
-            if self.loads_d >> rank & 1 == 1 {
-                self.drop_unless(after, shown);
-                self.slots.set(rank, self.slots.get(rank - 1));
-            }
-            after = self.slots.get(rank);
-        }
-        if self.loads_d & 1 == 1 {
-            self.drop_unless(after, self.slots.get(0));
-            if let Some(slot) = self.free.pop() {
-                self.slots.set(0, slot);
-                self.enter();
+    /// The flags become 0, and all requests are lost; what ranks show of them stays.
+    #[cold]
+    fn reset(&mut self) {
+        for rank in 0..self.ranks {
+            if let Some(number) = self.places_q.shown(rank) {
+                let Request { address, x, .. } = self.requests[self.place(number)];
+                let flight = &mut self.remains.flights[rank];
+                self.logic.enter(self.datapath, address, x, flight);
+                self.remains.loaded |= 1 << rank;
             }
         }
+        self.places_q = Places { valid: 0, left: self.entered, before: self.entered };
     }
 
-    #[inline]
-    fn enter(&mut self) {
-        let (address, x) = self.request_d;
-        let slot = usize::from(self.slots.get(0));
-        self.logic.enter(self.datapath, address, x, &mut self.flights[slot]);
-    }
-
-    /// A request that a rank gives up is free, unless the rank after it shows it. (Those before a rank show later
-    /// ones, or the one that it takes in.)
-    #[inline]
-    fn drop_unless(&mut self, after: u8, shown: u8) {
-        if shown != after && shown != NOTHING {
-            self.free.push(shown);
-        }
+    #[inline(always)]
+    fn place(&self, number: u64) -> usize {
+        number as usize & (self.requests.len() - 1)
     }
 }

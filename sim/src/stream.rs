@@ -1,8 +1,8 @@
 //! Many cycles at a time, for a stream without stalls.
 //!
 //! While results are always taken, a request that is taken in cycle c stands in rank r during cycle c + 1 + r,
-//! whatever comes before and after it. So all that happens to the requests of many cycles can be computed
-//! side by side, and the registers of any cycle are then a matter of looking: [`Stream::rank`] shows what
+//! whatever comes before and after it. So the results of many cycles can be computed side by side, and the registers
+//! of any cycle are then those of the request that stands there: [`Stream::rank`] shows what
 //! [`Pipeline`](crate::pipeline::Pipeline) shows, bubbles included.
 
 use hw_model::datapath::{Datapath, Flight, Logic, REQUESTS, Requests, Status};
@@ -63,7 +63,7 @@ impl<'a> Stream<'a> {
         drive: impl FnOnce(&mut [u32; CYCLES], &mut [i64; CYCLES], &mut [bool; CYCLES]),
     ) {
         if let Some(last) = self.before.last_request(CYCLES - 1) {
-            self.earlier = Some(self.before.requests.flight(last));
+            self.earlier = Some(self.flight(&self.before, last));
         }
         std::mem::swap(&mut self.now, &mut self.before);
         let Cycles { requests, valid } = &mut self.now;
@@ -121,12 +121,16 @@ impl<'a> Stream<'a> {
     fn request_upto(&self, cycle: usize) -> Option<Flight> {
         let now = cycle.checked_sub(CYCLES).and_then(|cycle| self.now.last_request(cycle));
         if let Some(cycle) = now {
-            return Some(self.now.requests.flight(cycle));
+            return Some(self.flight(&self.now, cycle));
         }
         match self.before.last_request(cycle.min(CYCLES - 1)) {
-            Some(cycle) => Some(self.before.requests.flight(cycle)),
+            Some(cycle) => Some(self.flight(&self.before, cycle)),
             None => self.earlier.clone(),
         }
+    }
+
+    fn flight(&self, cycles: &Cycles, cycle: usize) -> Flight {
+        cycles.requests.flight(self.datapath, &self.logic, cycle)
     }
 
     /// Cycles computed so far.

@@ -1,10 +1,11 @@
-//! A request in flight: every value that was computed of it so far, each in a place of its own.
+//! A request in flight: every value that is computed of it, each in a place of its own.
 //!
-//! Ranks of registers hold the same values again and again, carried along. A clocked simulator that keeps
-//! requests instead of ranks moves nothing but their numbers: a rank shows of a request what has been computed
-//! up to it, also after the request has gone on (a bubble does not change registers).
+//! Ranks of registers hold the same values again and again, carried along, and all of them follow from the
+//! request's address and x. A clocked simulator that counts requests instead of copying ranks moves nothing: a
+//! rank shows of a request what has been computed up to it, also after the request has gone on (a bubble does not
+//! change registers).
 
-use crate::rom::{FieldName, Row};
+use crate::rom::FieldName;
 use crate::rounding::{Lane, Rounding};
 
 use super::block::{Lines, Segment};
@@ -22,8 +23,6 @@ const MIDDLE: usize = 2;
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Flight {
     pub(super) address: u32,
-    /// The row's address; 0 where there is none.
-    pub(super) row: u32,
     pub(super) x: i64,
     pub(super) clamped_x: i64,
     pub(super) region: Region,
@@ -104,56 +103,6 @@ impl Datapath {
     }
 }
 
-/// Which request each rank shows: a ring, so that all ranks together go on by a turn of it.
-#[derive(Debug, Clone)]
-pub struct Slots {
-    ring: Vec<u8>,
-    head: usize,
-}
-
-impl Slots {
-    /// The same for every rank.
-    #[must_use]
-    pub fn new(ranks: usize, slot: u8) -> Self {
-        Self { ring: vec![slot; ranks], head: 0 }
-    }
-
-    /// The number of ranks.
-    #[must_use]
-    pub fn ranks(&self) -> usize {
-        self.ring.len()
-    }
-
-    #[inline(always)]
-    fn place(&self, rank: usize) -> usize {
-        let place = self.head + rank;
-        if place < self.ring.len() { place } else { place - self.ring.len() }
-    }
-
-    /// The request of a rank.
-    #[inline(always)]
-    #[must_use]
-    pub fn get(&self, rank: usize) -> u8 {
-        self.ring[self.place(rank)]
-    }
-
-    /// Gives a rank another request.
-    #[inline(always)]
-    pub fn set(&mut self, rank: usize, slot: u8) {
-        let place = self.place(rank);
-        self.ring[place] = slot;
-    }
-
-    /// Gives every rank the request of the rank before it, and the first that of the last.
-    #[inline(always)]
-    pub const fn turn(&mut self) {
-        self.head = match self.head {
-            0 => self.ring.len() - 1,
-            head => head - 1,
-        };
-    }
-}
-
 /// What lies between the ranks, with what is known of it.
 #[derive(Debug, Clone, Copy)]
 pub struct Logic {
@@ -162,38 +111,64 @@ pub struct Logic {
 }
 
 impl Logic {
-    /// What all ranks will take in of a request, in the place of one that nobody shows any more.
-    ///
-    /// A request's values follow from its address and x alone, whenever it goes on from rank to rank. So they are
-    /// computed when it enters, and [`Datapath::shown`] says which of them a rank has.
-    #[inline]
+    /// What all ranks take in of a request, in the place of another one; [`Datapath::shown`] says which of it a
+    /// rank has.
     pub fn enter(&self, datapath: &Datapath, address: u32, x: i64, flight: &mut Flight) {
-        let known = datapath.rom.row(address).is_some();
-        (flight.address, flight.x) = (address, x);
-        flight.row = if known { address } else { 0 };
-        flight.status[0] = Status::default().with(Status::NO_WORD, !known);
-        let row = datapath.row_at(flight.row);
-        match (self.plain, datapath.narrow) {
-            (Some((Rounding::NearestUp, true)), _) => {
-                self.evaluate_one::<i64, Plain<true, true>>(row, known, flight);
-            }
-            (Some((Rounding::NearestUp, false)), _) => {
-                self.evaluate_one::<i64, Plain<true, false>>(row, known, flight);
-            }
-            (_, true) => self.evaluate_one::<i64, Anything>(row, known, flight),
-            (_, false) => self.evaluate_one::<i128, Anything>(row, known, flight),
-        }
+        let Flight { divisions, .. } = flight;
+        let mut divisions = std::mem::take(divisions);
+        *flight = self.dispatch(datapath, address, x, |rank, division| divisions[rank] = division);
+        flight.divisions = divisions;
+    }
+
+    /// The intensity and its flags alone, as the last rank shows them.
+    #[inline]
+    #[must_use]
+    pub fn result(&self, datapath: &Datapath, address: u32, x: i64) -> (i64, Status) {
+        // What is computed for registers only falls away in here.
+        let flight = self.dispatch(datapath, address, x, |_, _| ());
+        (flight.intensity, flight.status[2])
     }
 
     #[inline(always)]
-    fn evaluate_one<L: Lane, K: Known>(&self, row: &Row, known: bool, flight: &mut Flight) {
+    fn dispatch(
+        &self,
+        datapath: &Datapath,
+        address: u32,
+        x: i64,
+        keep: impl FnMut(usize, Division<i64>),
+    ) -> Flight {
+        match (self.plain, datapath.narrow) {
+            (Some((Rounding::NearestUp, true)), _) => {
+                self.evaluate_one::<i64, Plain<true, true>>(datapath, address, x, keep)
+            }
+            (Some((Rounding::NearestUp, false)), _) => {
+                self.evaluate_one::<i64, Plain<true, false>>(datapath, address, x, keep)
+            }
+            (_, true) => self.evaluate_one::<i64, Anything>(datapath, address, x, keep),
+            (_, false) => self.evaluate_one::<i128, Anything>(datapath, address, x, keep),
+        }
+    }
+
+    /// All values but the divisions, of which `keep` is told the rank of the divider and what it holds.
+    #[inline(always)]
+    fn evaluate_one<L: Lane, K: Known>(
+        &self,
+        datapath: &Datapath,
+        address: u32,
+        given: i64,
+        mut keep: impl FnMut(usize, Division<i64>),
+    ) -> Flight {
         let Lines { front_end, stages, divider, output_one } = K::lines(self.lines);
-        let (given, input_one) = (L::from_bits(flight.x), L::from_bits(front_end.one));
+        let known = datapath.rom.row(address);
+        let (row, known) = (known.unwrap_or(datapath.row_at(0)), known.is_some());
+        let fetched = Status::default().with(Status::NO_WORD, !known);
+        let mut flight = Flight { address, x: given, ..Flight::default() };
+        let (given, input_one) = (L::from_bits(given), L::from_bits(front_end.one));
         let one = L::from_bits(output_one);
         let x = front_end.clamp_input(given);
         let region = front_end.region(given, L::from_bits(row.get(FieldName::Cut)));
         let region = if known { region } else { Region::Zero };
-        let status = flight.status[0]
+        let status = fetched
             .with(Status::ABOVE_ONE, given > input_one)
             .with(Status::FACING_AWAY, given < L::ZERO);
         let hand_over = L::from_bits(row.get(FieldName::HandOver));
@@ -201,9 +176,10 @@ impl Logic {
         let segment = if outer { Segment::outer(row) } else { Segment::first(row, input_one) };
         let Segment { start, shift, c: [c0, c1, c2, c3] } = segment;
         let v = front_end.variable(x, region, start, shift);
+        let tail_x = front_end.tail_x(x, region);
         (flight.clamped_x, flight.region, flight.outer) = (x.to_bits(), region, outer);
-        (flight.v, flight.tail_x) = (v.to_bits(), front_end.tail_x(x, region).to_bits());
-        (flight.status[1], flight.status[2], flight.intensity) = (status, status, 0);
+        (flight.v, flight.tail_x) = (v.to_bits(), tail_x.to_bits());
+        flight.status = [fetched, status, status];
         if let Some([stage1, stage2, stage3]) = stages {
             let t1 = stage1.apply(c3, v, c2);
             let t2 = stage2.apply(t1, v, c1);
@@ -217,16 +193,16 @@ impl Logic {
         if let Some(divider) = divider {
             let [a, b] =
                 [FieldName::TailA, FieldName::TailB].map(|name| L::from_bits(row.get(name)));
-            let mut division = divider.begin(front_end.tail_x(x, region), a, b);
-            for (stage, behind) in (0_u32..).zip(&mut flight.divisions) {
-                if let Some(stage) = stage.checked_sub(1) {
-                    division = divider.digit_stage(stage, division);
-                }
-                *behind = division.narrowed();
+            let mut division = divider.begin(tail_x, a, b);
+            keep(0, division.narrowed());
+            for stage in 0..divider.digit_stages() {
+                division = divider.digit_stage(stage, division);
+                keep(stage as usize + 1, division.narrowed());
             }
             if region == Region::Tail {
                 flight.intensity = divider.finish(division, one).to_bits();
             }
         }
+        flight
     }
 }

@@ -30,7 +30,7 @@ pub mod stage;
 pub mod tail;
 
 pub use block::Block;
-pub use flight::{Flight, Logic, Slots};
+pub use flight::{Flight, Logic};
 pub use keep::Damage;
 pub use ranks::{Datapath, register_name};
 pub use requests::{REQUESTS, Requests};

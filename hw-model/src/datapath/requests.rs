@@ -1,12 +1,13 @@
-//! Many requests side by side, each of any exponent, with every value that ranks of registers would hold.
+//! Many requests side by side, each of any exponent: their results, and the values that ranks of registers hold
+//! when they are asked for.
 //!
-//! Each value has an array of its own, all of one constant length and in one place, so that a compiler sees that
-//! they do not overlap. Coefficients are collected from the ROM first; what follows is the same for every
-//! request and needs no choice but that of its region, which is selected.
+//! The results are computed in loops over arrays of one constant length, which have no choice in them but that
+//! of the region, and that one is selected. What a rank shows of a request follows from its address and x alone,
+//! so nothing but these is kept: [`Requests::flight`] computes it again.
 
 use multiversion::multiversion;
 
-use crate::rom::FieldName;
+use crate::rom::{FieldName, Row};
 use crate::rounding::{Lane, Rounding};
 
 use super::block::Lines;
@@ -24,50 +25,68 @@ pub const REQUESTS: usize = 128;
 
 type Values = [i64; REQUESTS];
 
-/// Requests and their values. Fill in addresses and x; [`Logic::evaluate`] does the rest.
+/// Requests and their results. Fill in addresses and x; [`Logic::evaluate`] does the rest.
 #[derive(Debug, Clone)]
 pub struct Requests {
     /// ROM addresses.
     pub addresses: [u32; REQUESTS],
     /// x, bits in the input format.
     pub xs: Values,
-    row: Coefficients,
-    /// The address that all coefficients were collected of, where it is one.
-    collected: Option<u32>,
+    /// The words of the addresses, where they are not all the same.
+    words: Words,
+    results: Results,
+}
+
+#[derive(Debug, Clone)]
+struct Results {
+    intensities: Values,
+    /// Flags.
+    status: Values,
+    /// [`Region`]s.
+    regions: Values,
+}
+
+/// A list for each field of the ROM.
+#[derive(Debug, Clone)]
+struct Words {
+    fields: [Values; FieldName::ALL.len()],
     /// 1 where the address has a word.
     known: Values,
-    clamped_xs: Values,
-    regions: Values,
-    /// The flags of the front end, and of the result.
-    status: [Values; 2],
-    v: Values,
-    t: [Values; 3],
-    /// 1 where the second segment answers.
-    outer: Values,
-    tail_x: Values,
-    divisions: Vec<Divisions>,
-    intensities: Values,
 }
 
-/// What was collected from the ROM.
-#[derive(Debug, Clone)]
-struct Coefficients {
-    c: [Values; 4],
-    shift: Values,
-    cut: Values,
-    /// Of the second segment, where there is one.
-    outer_c: [Values; 4],
-    outer_shift: Values,
-    hand_over: Values,
-    tail: [Values; 2],
+/// Where a loop over requests finds their words.
+trait Fetched: Copy {
+    fn get(&self, name: FieldName, request: usize) -> i64;
+    fn known(&self, request: usize) -> bool;
 }
 
-/// The registers of a rank of the divider.
-#[derive(Debug, Clone)]
-struct Divisions {
-    divisors: Values,
-    remainders: Values,
-    digits: Values,
+impl Fetched for &Words {
+    #[inline(always)]
+    fn get(&self, name: FieldName, request: usize) -> i64 {
+        self.fields[name as usize][request]
+    }
+    #[inline(always)]
+    fn known(&self, request: usize) -> bool {
+        self.known[request] != 0
+    }
+}
+
+/// The one word of all requests: nothing is fetched in the loop.
+#[derive(Clone, Copy)]
+struct OneWord {
+    row: Row,
+    known: bool,
+}
+
+impl Fetched for OneWord {
+    #[inline(always)]
+    fn get(&self, name: FieldName, _: usize) -> i64 {
+        self.row.get(name)
+    }
+    #[inline(always)]
+    fn known(&self, _: usize) -> bool {
+        self.known
+    }
 }
 
 const ZEROS: Values = [0; REQUESTS];
@@ -76,31 +95,11 @@ impl Datapath {
     /// Room for requests.
     #[must_use]
     pub fn requests(&self) -> Box<Requests> {
-        let division = Divisions { divisors: ZEROS, remainders: ZEROS, digits: ZEROS };
-        let row = Coefficients {
-            c: [ZEROS; 4],
-            shift: ZEROS,
-            cut: ZEROS,
-            outer_c: [ZEROS; 4],
-            outer_shift: ZEROS,
-            hand_over: ZEROS,
-            tail: [ZEROS; 2],
-        };
         Box::new(Requests {
             addresses: [0; REQUESTS],
             xs: ZEROS,
-            row,
-            collected: None,
-            known: ZEROS,
-            clamped_xs: ZEROS,
-            regions: ZEROS,
-            status: [ZEROS; 2],
-            v: ZEROS,
-            t: [ZEROS; 3],
-            outer: ZEROS,
-            tail_x: ZEROS,
-            divisions: vec![division; self.divider_ranks()],
-            intensities: ZEROS,
+            words: Words { fields: [ZEROS; FieldName::ALL.len()], known: ZEROS },
+            results: Results { intensities: ZEROS, status: ZEROS, regions: ZEROS },
         })
     }
 }
@@ -109,215 +108,200 @@ impl Requests {
     /// The intensities.
     #[must_use]
     pub const fn intensities(&self) -> &[i64; REQUESTS] {
-        &self.intensities
+        &self.results.intensities
     }
 
     /// The flags of a result.
     #[must_use]
     pub const fn status(&self, request: usize) -> Status {
-        Status::of_bits(self.status[1][request] as u8)
+        Status::of_bits(self.results.status[request] as u8)
     }
 
-    /// One request on its own.
+    /// One request on its own, with every value that a rank may show of it.
     #[must_use]
-    pub fn flight(&self, request: usize) -> Flight {
-        let known = self.known[request] != 0;
-        let division = |rank: &Divisions| Division {
-            divisor: rank.divisors[request],
-            remainder: rank.remainders[request],
-            digits: rank.digits[request],
-        };
-        Flight {
-            address: self.addresses[request],
-            row: if known { self.addresses[request] } else { 0 },
-            x: self.xs[request],
-            clamped_x: self.clamped_xs[request],
-            outer: self.outer[request] != 0,
-            region: match self.regions[request] {
-                1 => Region::Polynomial,
-                2 => Region::Tail,
-                _ => Region::Zero,
-            },
-            status: [
-                Status::default().with(Status::NO_WORD, !known),
-                Status::of_bits(self.status[0][request] as u8),
-                Status::of_bits(self.status[1][request] as u8),
-            ],
-            v: self.v[request],
-            t: [0, 1, 2].map(|stage| self.t[stage][request]),
-            tail_x: self.tail_x[request],
-            divisions: self.divisions.iter().map(division).collect(),
-            intensity: self.intensities[request],
+    pub fn flight(&self, datapath: &Datapath, logic: &Logic, request: usize) -> Flight {
+        let mut flight = datapath.flight();
+        logic.enter(datapath, self.addresses[request], self.xs[request], &mut flight);
+        flight
+    }
+
+    /// The one word of all, or their words collected.
+    fn fetch(&mut self, datapath: &Datapath) -> Option<OneWord> {
+        let first = self.addresses[0];
+        if self.addresses.iter().fold(0, |differ, address| differ | (address ^ first)) == 0 {
+            let known = datapath.rom.row(first);
+            let row = *known.unwrap_or_else(|| datapath.row_at(0));
+            return Some(OneWord { row, known: known.is_some() });
         }
+        let mut rows = [datapath.row_at(0); REQUESTS];
+        for ((row, known), &address) in
+            rows.iter_mut().zip(&mut self.words.known).zip(&self.addresses)
+        {
+            let found = datapath.rom.row(address);
+            *known = i64::from(found.is_some());
+            *row = found.unwrap_or(row);
+        }
+        for field in datapath.rom.layout().fields() {
+            let values = &mut self.words.fields[field.name as usize];
+            for (value, row) in values.iter_mut().zip(rows) {
+                *value = row.get(field.name);
+            }
+        }
+        None
     }
 }
 
 impl Logic {
     /// Evaluates every request.
     pub fn evaluate(&self, datapath: &Datapath, requests: &mut Requests) {
-        requests.collect(datapath);
-        match (self.plain, datapath.narrow, datapath.has_two_segments()) {
-            (Some((Rounding::NearestUp, true)), _, false) => centred(&self.lines, requests),
-            (Some((Rounding::NearestUp, true)), _, true) => two_segments(&self.lines, requests),
-            (Some((Rounding::NearestUp, false)), _, false) => power(&self.lines, requests),
-            (_, true, _) => requests.evaluate::<i64, Anything, true>(&self.lines),
-            (_, false, _) => requests.evaluate::<i128, Anything, true>(&self.lines),
+        let two = datapath.has_two_segments();
+        let one_word = requests.fetch(datapath);
+        let Requests { xs, words, results, .. } = requests;
+        match one_word {
+            Some(word) => self.answer_all(datapath.narrow, two, word, xs, results),
+            None => self.answer_all(datapath.narrow, two, &*words, xs, results),
+        }
+    }
+
+    fn answer_all<F: Fetched>(
+        &self,
+        narrow: bool,
+        two: bool,
+        words: F,
+        xs: &Values,
+        results: &mut Results,
+    ) {
+        let lines = &self.lines;
+        match (self.plain, narrow, two) {
+            (Some((Rounding::NearestUp, true)), _, false) => centred(lines, &words, xs, results),
+            (Some((Rounding::NearestUp, true)), _, true) => {
+                two_segments(lines, &words, xs, results);
+            }
+            (Some((Rounding::NearestUp, false)), _, false) => power(lines, &words, xs, results),
+            (_, true, _) => lines.answer::<i64, Anything, F, true>(&words, xs, results),
+            (_, false, _) => lines.answer::<i128, Anything, F, true>(&words, xs, results),
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn centred(lines: &Lines, requests: &mut Requests) {
-    requests.evaluate::<i64, Plain<true, true>, false>(lines);
+fn centred<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
+    lines.answer::<i64, Plain<true, true>, F, false>(words, xs, results);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn two_segments(lines: &Lines, requests: &mut Requests) {
-    requests.evaluate::<i64, Plain<true, true>, true>(lines);
+fn two_segments<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
+    lines.answer::<i64, Plain<true, true>, F, true>(words, xs, results);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn power(lines: &Lines, requests: &mut Requests) {
-    requests.evaluate::<i64, Plain<true, false>, false>(lines);
+fn power<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
+    lines.answer::<i64, Plain<true, false>, F, false>(words, xs, results);
 }
 
-impl Requests {
-    /// Collects coefficients, unless they are those that stand there already, as in a sweep.
-    fn collect(&mut self, datapath: &Datapath) {
-        let first = self.addresses[0];
-        let same = self.addresses.iter().fold(0, |differ, address| differ | (address ^ first)) == 0;
-        if same && self.collected == Some(first) {
-            return;
-        }
-        self.collected = same.then_some(first);
-        let Coefficients { c, shift, cut, outer_c, outer_shift, hand_over, tail } = &mut self.row;
-        for (request, &address) in self.addresses.iter().enumerate() {
-            let known = datapath.rom.row(address);
-            self.known[request] = i64::from(known.is_some());
-            let row = known.unwrap_or_else(|| datapath.row_at(0));
-            for (values, name) in c.iter_mut().zip(FieldName::COEFFICIENTS) {
-                values[request] = row.get(name);
-            }
-            shift[request] = row.get(FieldName::Shift);
-            cut[request] = row.get(FieldName::Cut);
-            if datapath.has_two_segments() {
-                for (values, name) in outer_c.iter_mut().zip(FieldName::OUTER_COEFFICIENTS) {
-                    values[request] = row.get(name);
-                }
-                outer_shift[request] = row.get(FieldName::ShiftOuter);
-                hand_over[request] = row.get(FieldName::HandOver);
-            }
-            if datapath.divider.is_some() {
-                tail[0][request] = row.get(FieldName::TailA);
-                tail[1][request] = row.get(FieldName::TailB);
-            }
-        }
-    }
-
+impl Lines {
     /// `TWO`: there may be a second segment.
     #[inline(always)]
-    fn evaluate<L: Lane, K: Known, const TWO: bool>(&mut self, lines: &Lines) {
-        self.polynomial::<L, K, TWO>(lines);
-        self.tail::<L, K>(lines);
+    fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool>(
+        &self,
+        words: &F,
+        xs: &Values,
+        results: &mut Results,
+    ) {
+        self.polynomials::<L, K, F, TWO>(words, xs, results);
+        if results.regions.contains(&(Region::Tail as i64)) {
+            self.tails::<L, K, F>(words, xs, results);
+        }
     }
 
     /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
-    fn polynomial<L: Lane, K: Known, const TWO: bool>(&mut self, lines: &Lines) {
+    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool>(
+        &self,
+        words: &F,
+        xs: &Values,
+        results: &mut Results,
+    ) {
         // Where there is no polynomial, all its operands are 0, and what is computed of them too.
-        let stages = lines.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
-        let lines = K::lines(Lines { stages: Some(stages), ..*lines });
-        let Lines { front_end, stages: Some([stage1, stage2, stage3]), output_one, .. } = lines
+        let stages = self.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
+        let lines = K::lines(Self { stages: Some(stages), ..*self });
+        let Self { front_end, stages: Some([stage1, stage2, stage3]), output_one, .. } = lines
         else {
             return;
         };
         let (input_one, one) = (L::from_bits(front_end.one), L::from_bits(output_one));
-        let row = &self.row;
-        let ([c0, c1, c2, c3], [d0, d1, d2, d3]) = (&row.c, &row.outer_c);
+        // Copied: a loop that writes must not have to read it again.
+        let words = *words;
         for request in 0..REQUESTS {
-            let given = L::from_bits(self.xs[request]);
+            let field = |name| L::from_bits(words.get(name, request));
+            let given = L::from_bits(xs[request]);
             let x = front_end.clamp_input(given);
-            let known = self.known[request] != 0;
-            let region = front_end.region(given, L::from_bits(row.cut[request]));
-            let region = if known { region } else { Region::Zero };
-            let hand_over = L::from_bits(row.hand_over[request]);
+            let region = front_end.region(given, field(FieldName::Cut));
+            let region = if words.known(request) { region } else { Region::Zero };
+            let hand_over = field(FieldName::HandOver);
             let outer = TWO && front_end.is_outer(x, region, hand_over);
             let start = if outer { hand_over } else { input_one };
-            let (inner, other) = (row.shift[request], row.outer_shift[request]);
-            let shift = if outer { other } else { inner } as u32;
-            let v = front_end.variable(x, region, start, shift);
-            let either = |first: &Values, second: &Values| {
-                let (first, second) = (first[request], second[request]);
+            // Both are loaded: a choice of the address would not fit into vectors.
+            let either = |first, second| {
+                let (first, second) = (words.get(first, request), words.get(second, request));
                 L::from_bits(if outer { second } else { first })
             };
-            let t1 = stage1.apply(either(c3, d3), v, either(c2, d2));
-            let t2 = stage2.apply(t1, v, either(c1, d1));
-            let t3 = stage3.apply(t2, v, either(c0, d0));
+            let shift = either(FieldName::Shift, FieldName::ShiftOuter).to_bits() as u32;
+            let v = front_end.variable(x, region, start, shift);
+            let (c3, c2) = (
+                either(FieldName::C3, FieldName::C3Outer),
+                either(FieldName::C2, FieldName::C2Outer),
+            );
+            let t1 = stage1.apply(c3, v, c2);
+            let t2 = stage2.apply(t1, v, either(FieldName::C1, FieldName::C1Outer));
+            let t3 = stage3.apply(t2, v, either(FieldName::C0, FieldName::C0Outer));
             let answers = region == Region::Polynomial;
             let answered = clamp(t3, one);
             let status = Status::default()
-                .with(Status::NO_WORD, !known)
+                .with(Status::NO_WORD, !words.known(request))
                 .with(Status::ABOVE_ONE, given > input_one)
-                .with(Status::FACING_AWAY, given < L::ZERO);
-            let result = status.with(Status::CLAMPED, answers && answered != t3);
-            self.clamped_xs[request] = x.to_bits();
-            self.regions[request] = region as i64;
-            self.outer[request] = outer.into();
-            self.status[0][request] = status.bits().into();
-            self.status[1][request] = result.bits().into();
-            self.v[request] = v.to_bits();
-            self.tail_x[request] = front_end.tail_x(x, region).to_bits();
-            self.t[0][request] = t1.to_bits();
-            self.t[1][request] = t2.to_bits();
-            self.t[2][request] = t3.to_bits();
-            self.intensities[request] = if answers { answered.to_bits() } else { 0 };
+                .with(Status::FACING_AWAY, given < L::ZERO)
+                .with(Status::CLAMPED, answers && answered != t3);
+            results.regions[request] = region as i64;
+            results.status[request] = status.bits().into();
+            results.intensities[request] = if answers { answered.to_bits() } else { 0 };
         }
     }
 
     #[inline(always)]
-    fn tail<L: Lane, K: Known>(&mut self, lines: &Lines) {
-        let Some(divider) = K::lines(*lines).divider else { return };
-        let [a, b] = &self.row.tail;
-        if let Some(first) = self.divisions.first_mut() {
-            for request in 0..REQUESTS {
-                let [x, a, b] = [self.tail_x[request], a[request], b[request]].map(L::from_bits);
-                first.put(request, divider.begin(x, a, b));
-            }
-        }
-        for rank in 1..self.divisions.len() {
-            let (before, from) = self.divisions.split_at_mut(rank);
-            let (Some(before), Some(after)) = (before.last(), from.first_mut()) else { return };
-            after.clone_from(before);
-            for _ in 0..divider.digits_of_stage(rank as u32 - 1) {
-                for request in 0..REQUESTS {
-                    after.put(request, divider.digit(after.get::<L>(request)));
-                }
-            }
-        }
-        let Some(last) = self.divisions.last() else { return };
-        let one = L::from_bits(lines.output_one);
+    fn tails<L: Lane, K: Known, F: Fetched>(&self, words: &F, xs: &Values, results: &mut Results) {
+        let Self { front_end, divider: Some(divider), output_one, .. } = K::lines(*self) else {
+            return;
+        };
+        let mut divisors = [L::ONE; REQUESTS];
+        let mut remainders = [L::ZERO; REQUESTS];
+        let mut digits = [L::ZERO; REQUESTS];
         for request in 0..REQUESTS {
-            let quotient = divider.finish(last.get::<L>(request), one).to_bits();
-            let answers = self.regions[request] == Region::Tail as i64;
-            let other = self.intensities[request];
-            self.intensities[request] = if answers { quotient } else { other };
+            let x = front_end.clamp_input(L::from_bits(xs[request]));
+            let answers = results.regions[request] == Region::Tail as i64;
+            let x = front_end.tail_x(x, if answers { Region::Tail } else { Region::Zero });
+            let [a, b] = [FieldName::TailA, FieldName::TailB]
+                .map(|name| L::from_bits(words.get(name, request)));
+            let begun = divider.begin(x, a, b);
+            (divisors[request], remainders[request]) = (begun.divisor, begun.remainder);
+            digits[request] = begun.digits;
         }
-    }
-}
-
-impl Divisions {
-    #[inline(always)]
-    fn put<L: Lane>(&mut self, request: usize, division: Division<L>) {
-        let Division { divisor, remainder, digits } = division.narrowed();
-        self.divisors[request] = divisor;
-        self.remainders[request] = remainder;
-        self.digits[request] = digits;
-    }
-
-    #[inline(always)]
-    fn get<L: Lane>(&self, request: usize) -> Division<L> {
-        let [divisor, remainder, digits] =
-            [&self.divisors, &self.remainders, &self.digits].map(|values| values[request]);
-        Division { divisor, remainder, digits }.widened()
+        for _ in 0..divider.digit_count {
+            let lanes = divisors.iter().zip(&mut remainders).zip(&mut digits);
+            for ((&divisor, remainder), digits) in lanes {
+                let next =
+                    divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
+                (*remainder, *digits) = (next.remainder, next.digits);
+            }
+        }
+        let one = L::from_bits(output_one);
+        for request in 0..REQUESTS {
+            let (divisor, remainder) = (divisors[request], remainders[request]);
+            let division = Division { divisor, remainder, digits: digits[request] };
+            let quotient = divider.finish(division, one).to_bits();
+            let answers = results.regions[request] == Region::Tail as i64;
+            let other = results.intensities[request];
+            results.intensities[request] = if answers { quotient } else { other };
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use hw_model::design::Design;
+use multiversion::multiversion;
 use rayon::prelude::*;
 use sim::pipeline::{Inputs, Pipeline};
 use sim::stream::{CYCLES, Stream};
@@ -51,9 +52,21 @@ impl Stimulus for Sweep {
     }
 }
 
-#[inline(always)]
-const fn sum(checksum: u64, intensity: i64, status: u8) -> u64 {
-    checksum.rotate_left(7) ^ ((intensity as u64) << 4 | status as u64)
+/// Every result times an odd number of its own, so that their order matters; the same as in `harness.cpp`.
+struct Checksum {
+    sum: u64,
+    weight: u64,
+}
+
+impl Checksum {
+    const NONE: Self = Self { sum: 0, weight: 1 };
+
+    #[inline(always)]
+    const fn add(&mut self, intensity: i64, status: u8) {
+        let result = (intensity as u64) << 4 | status as u64;
+        self.sum = self.sum.wrapping_add(result.wrapping_mul(self.weight));
+        self.weight = self.weight.wrapping_add(2);
+    }
 }
 
 fn timed(count: u64, run: impl FnOnce() -> u64) -> Timed {
@@ -80,60 +93,83 @@ pub(super) fn processor() -> Option<f64> {
 /// The clocked simulator, a cycle after the other.
 #[must_use]
 pub fn clocked(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
-    match pattern {
-        Pattern::Random => clocked_with::<Random>(design, cycles),
-        Pattern::Sweep => clocked_with::<Sweep>(design, cycles),
-    }
+    let mut pipeline = Pipeline::new(design.datapath());
+    timed_alone(cycles, || match pattern {
+        Pattern::Random => clock_random(&mut pipeline, cycles),
+        Pattern::Sweep => clock_sweep(&mut pipeline, cycles),
+    })
 }
 
-fn clocked_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
-    let mut pipeline = Pipeline::new(design.datapath());
-    let mut stimulus = S::new();
-    timed_alone(cycles, || {
-        let mut checksum = 0;
-        for _ in 0..cycles {
-            let (address, x) = stimulus.next();
-            let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };
-            let outputs = pipeline.tick(&inputs);
-            if outputs.out_valid {
-                checksum = sum(checksum, outputs.intensity, outputs.status.bits());
-            }
+// Verilator's harness is compiled for the machine it runs on; so are the loops around our engines.
+
+#[multiversion(targets("x86_64+bmi1+bmi2+lzcnt+popcnt"))]
+fn clock_random(pipeline: &mut Pipeline<'_>, cycles: u64) -> u64 {
+    clock_with(pipeline, Random::new(), cycles)
+}
+
+#[multiversion(targets("x86_64+bmi1+bmi2+lzcnt+popcnt"))]
+fn clock_sweep(pipeline: &mut Pipeline<'_>, cycles: u64) -> u64 {
+    clock_with(pipeline, Sweep::new(), cycles)
+}
+
+#[inline(always)]
+fn clock_with(pipeline: &mut Pipeline<'_>, mut stimulus: impl Stimulus, cycles: u64) -> u64 {
+    let mut checksum = Checksum::NONE;
+    for _ in 0..cycles {
+        let (address, x) = stimulus.next();
+        let inputs = Inputs { reset: false, in_valid: true, address, x, out_ready: true };
+        let outputs = pipeline.tick(&inputs);
+        if outputs.out_valid {
+            checksum.add(outputs.intensity, outputs.status.bits());
         }
-        checksum
-    })
+    }
+    checksum.sum
 }
 
 /// Many cycles at a time. The results of the last latency are not yet shown, as in the others.
 #[must_use]
 pub fn streamed(design: &Design, pattern: Pattern, cycles: u64) -> Timed {
-    match pattern {
-        Pattern::Random => streamed_with::<Random>(design, cycles),
-        Pattern::Sweep => streamed_with::<Sweep>(design, cycles),
-    }
+    let mut stream = Stream::new(design.datapath());
+    let shown = cycles.saturating_sub(design.datapath().rank_count() as u64);
+    timed_alone(cycles, || match pattern {
+        Pattern::Random => stream_random(&mut stream, cycles, shown),
+        Pattern::Sweep => stream_sweep(&mut stream, cycles, shown),
+    })
 }
 
-fn streamed_with<S: Stimulus>(design: &Design, cycles: u64) -> Timed {
-    let mut stream = Stream::new(design.datapath());
-    let mut stimulus = S::new();
-    let mut left = cycles.saturating_sub(design.datapath().rank_count() as u64);
-    timed_alone(cycles, || {
-        let mut checksum = 0;
-        for _ in 0..cycles.div_ceil(CYCLES as u64) {
-            stream.run(|addresses, xs, valid| {
-                for (address, x) in addresses.iter_mut().zip(xs) {
-                    (*address, *x) = stimulus.next();
-                }
-                *valid = [true; CYCLES];
-            });
-            let (intensities, _) = stream.results();
-            let shown = left.min(CYCLES as u64) as usize;
-            for (result, &intensity) in intensities.iter().enumerate().take(shown) {
-                checksum = sum(checksum, intensity, stream.status(result).bits());
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn stream_random(stream: &mut Stream<'_>, cycles: u64, shown: u64) -> u64 {
+    stream_with(stream, Random::new(), cycles, shown)
+}
+
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn stream_sweep(stream: &mut Stream<'_>, cycles: u64, shown: u64) -> u64 {
+    stream_with(stream, Sweep::new(), cycles, shown)
+}
+
+#[inline(always)]
+fn stream_with(
+    stream: &mut Stream<'_>,
+    mut stimulus: impl Stimulus,
+    cycles: u64,
+    mut left: u64,
+) -> u64 {
+    let mut checksum = Checksum::NONE;
+    for _ in 0..cycles.div_ceil(CYCLES as u64) {
+        stream.run(|addresses, xs, valid| {
+            for (address, x) in addresses.iter_mut().zip(xs) {
+                (*address, *x) = stimulus.next();
             }
-            left -= shown as u64;
+            *valid = [true; CYCLES];
+        });
+        let (intensities, _) = stream.results();
+        let shown = left.min(CYCLES as u64) as usize;
+        for (result, &intensity) in intensities.iter().enumerate().take(shown) {
+            checksum.add(intensity, stream.status(result).bits());
         }
-        checksum
-    })
+        left -= shown as u64;
+    }
+    checksum.sum
 }
 
 /// Every x of every exponent, or those from the cut on; the sum of all intensities, so that the order of the

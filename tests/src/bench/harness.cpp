@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     }
     top.rst_i = 0;
     top.in_valid_i = 1;
-    uint64_t state = SEED, checksum = 0;
+    uint64_t state = SEED, checksum = 0, weight = 1;
     const double begin = seconds();
     for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
         if (sweep) {
@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
         }
         if (top.out_valid_o) {
             const uint64_t result = uint64_t(top.intensity_o) << 4 | top.status_o;
-            checksum = (checksum << 7 | checksum >> 57) ^ result;
+            checksum += result * weight;
+            weight += 2;
         }
         top.clk_i = 1;
         top.eval();

@@ -1,4 +1,5 @@
-//! `make bench`: speed beside Verilator's on the emitted RTL, in one run. `--docs FILE` writes the table there as well.
+//! `make bench`: speed beside Verilator's on the emitted RTL, in one run. `--docs FILE` writes the table there as well;
+//! names of presets, instead, time these alone.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,7 +20,7 @@ const PRESETS: [&str; 3] = ["compact", "precise", "paper"];
 /// Turns of everything that is timed.
 const TURNS: usize = 7;
 /// Cycles of a run; a stream computes some hundred together, so it gets more of them.
-const CYCLES: u64 = 2_000_000;
+const CYCLES: u64 = 4_000_000;
 /// Cycles whose results are compared before anything is timed.
 const CHECKED: u64 = 500_000;
 const WAVE_CYCLES: u64 = 200_000;
@@ -59,20 +60,22 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), Failure> {
-    let docs = match std::env::args().skip(1).collect::<Vec<_>>().as_slice() {
-        [] => None,
-        [flag, file] if flag == "--docs" => Some(PathBuf::from(file)),
-        _ => return failed("usage: bench [--docs FILE]"),
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (docs, named) = match arguments.as_slice() {
+        [flag, file] if flag == "--docs" => (Some(PathBuf::from(file)), &[][..]),
+        named => (None, named),
     };
+    let all = PRESETS.map(str::to_owned);
+    let names = if named.is_empty() { &all[..] } else { named };
     let machine = format!("{}; {}", machine(), verilator::version()?);
     println!("{machine}");
     println!("the median of {TURNS} turns, and the slowest and fastest of them\n");
     let mut table = Table(String::new());
-    for name in PRESETS {
+    for name in names {
         let preset = presets::ALL.iter().find(|preset| preset.name == name);
         let config = preset.and_then(|preset| preset.config().ok());
         let Some(design) = config.and_then(|config| Design::new(config).ok()) else {
-            return failed(format!("{name} is no preset"));
+            return failed(format!("{name} is no preset; usage: bench [--docs FILE | PRESET...]"));
         };
         table.heading(name);
         cycles(&design, &mut table)?;
@@ -110,7 +113,7 @@ fn patterned(
     for _ in 0..TURNS {
         rates[0].push(&verilated.run(pattern, CYCLES, None)?);
         rates[1].push(&engines::clocked(design, pattern, CYCLES));
-        rates[2].push(&engines::streamed(design, pattern, 10 * CYCLES));
+        rates[2].push(&engines::streamed(design, pattern, 20 * CYCLES));
     }
     let [theirs, clocked, streamed] = &rates;
     let ratio = |rates: &Rates| Some((rates.median() / theirs.median(), "Verilator"));

@@ -7,6 +7,8 @@ use vectors::faults::{
 };
 use vectors::rtl::rounding_number;
 
+use crate::rtl::{Failure, failed};
+
 /// A change of one place of one file.
 #[derive(Debug, Clone)]
 pub struct Edit {
@@ -20,6 +22,19 @@ pub struct Edit {
     pub right: String,
     /// What it becomes.
     pub wrong: String,
+}
+
+impl Edit {
+    /// The file with the change.
+    ///
+    /// # Errors
+    /// When the line is not there, or more than once.
+    pub fn apply(&self, text: &str) -> Result<String, Failure> {
+        if text.matches(&self.right).count() != 1 {
+            return failed(format!("{}: {:?} is not once in {}", self.name, self.right, self.file));
+        }
+        Ok(text.replace(&self.right, &self.wrong))
+    }
 }
 
 /// Every fault of the pipeline that is a change of its sources. The registers of later ranks of the
@@ -102,10 +117,14 @@ fn logic(logic: Logic) -> Option<Change> {
     let clamp = |right: &str, wrong: &str| Some(change("blysk_clamp.sv", right, wrong));
     match logic {
         Logic::CutExclusive => front_end("'(x) >= ", "'(x) > "),
-        Logic::ShiftMore => front_end("SHIFT_BITS'(shift_i)", "SHIFT_BITS'(shift_i) + 1'b1"),
-        Logic::ShiftLess => {
-            front_end("SHIFT_BITS'(shift_i)", "(shift_i == '0 ? '0 : SHIFT_BITS'(shift_i) - 1'b1)")
+        // Where it is used: a first segment's shift is taken in two places, of which one is there.
+        Logic::ShiftMore => {
+            front_end("<< shift;", "<< (outer_o ? shift : SHIFT_BITS'(shift + 1'b1));")
         }
+        Logic::ShiftLess => front_end(
+            "<< shift;",
+            "<< (outer_o || shift == '0 ? shift : SHIFT_BITS'(shift - 1'b1));",
+        ),
         Logic::ShiftOuterMore => {
             front_end("SHIFT_BITS'(shift_outer_i)", "SHIFT_BITS'(shift_outer_i) + 1'b1")
         }
@@ -155,4 +174,37 @@ fn handshake() -> impl Iterator<Item = Edit> {
         right: right.to_owned(),
         wrong: wrong.to_owned(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use hw_model::rtl::SOURCES;
+    use vectors::rtl::{PACKAGE, package};
+
+    use super::super::preset;
+    use super::*;
+
+    /// `make mutants` takes hours; a line of the RTL that was rewritten is found here.
+    #[test]
+    fn every_edit_of_every_preset_finds_its_line() {
+        let mut names = BTreeSet::new();
+        for preset_file in hw_model::presets::ALL {
+            let design = preset(preset_file.name).unwrap();
+            let package = package(&design, "a test");
+            for edit in edits(design.datapath()) {
+                let source = SOURCES.iter().find(|(name, _)| *name == edit.file);
+                let text = match source {
+                    Some((_, text)) => text,
+                    None if edit.file == PACKAGE => package.as_str(),
+                    None => panic!("{} is no file of the RTL", edit.file),
+                };
+                let wrong = edit.apply(text).unwrap();
+                assert_ne!(wrong, text, "{}: {}", preset_file.name, edit.name);
+                names.insert(edit.name);
+            }
+        }
+        assert!(names.len() > 40, "{names:?}");
+    }
 }

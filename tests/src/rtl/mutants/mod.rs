@@ -141,11 +141,7 @@ impl Bench {
             Self { directory: copy(&self.directory, &format!("{directory}-edit-{thread}"))? };
         let path = copy.directory.join(edit.file);
         let text = std::fs::read_to_string(&path).map_err(|error| Failure(error.to_string()))?;
-        if text.matches(&edit.right).count() != 1 {
-            return failed(format!("{}: {:?} is not once in {}", edit.name, edit.right, edit.file));
-        }
-        std::fs::write(&path, text.replace(&edit.right, &edit.wrong))
-            .map_err(|error| Failure(error.to_string()))?;
+        std::fs::write(&path, edit.apply(&text)?).map_err(|error| Failure(error.to_string()))?;
         copy.build(simulator, &own_sources())
             .map_err(|error| Failure(format!("{}: {error}", edit.name)))?;
         let killed_by = copy.run(simulator, &copy.directory, &[])?;
