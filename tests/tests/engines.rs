@@ -68,10 +68,12 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
         let mut pipeline = Pipeline::new(datapath);
         let mut written = Written { datapath, ranks: vec![Rank::default(); datapath.rank_count()] };
         let requests: Vec<_> = (0..40).map(|_| request(&mut source, &design)).collect();
-        let (mut request_in, mut ready_in) = (1, 1);
+        let (mut request_in, mut ready_in, mut looks_in) = (1, 1, 1);
         for cycle in 0..400 {
             if source.once_in(30) {
                 (request_in, ready_in) = (source.integer(1, 6), source.integer(1, 6));
+                // Registers are computed when somebody looks; also after many cycles without.
+                looks_in = source.one_of(&[1, 1, 60]);
             }
             let (address, x) = source.one_of(&requests);
             let inputs = Inputs {
@@ -90,6 +92,9 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
             assert_eq!(outputs.in_ready, (ready || !valid) && !inputs.reset);
             pipeline.clock();
             written.tick(&inputs);
+            if !source.once_in(looks_in) {
+                continue;
+            }
             for (index, (shown, wanted)) in pipeline.ranks().iter().zip(&written.ranks).enumerate()
             {
                 let name = &design.config().name;
@@ -112,14 +117,23 @@ fn many_cycles_at_a_time_show_what_the_clocked_simulator_shows() {
         let requests: Vec<_> = (0..40).map(|_| request(&mut source, &design)).collect();
         for _ in 0..6 {
             let every = source.one_of(&[1, 1, 2, 9, 100, 100_000]);
-            let driven: Vec<_> =
-                (0..CYCLES).map(|_| (source.one_of(&requests), source.once_in(every))).collect();
+            let one_address = source.once_in(2).then(|| source.one_of(&requests).0);
+            let mut drive = || {
+                let (address, x) = source.one_of(&requests);
+                ((one_address.unwrap_or(address), x), source.once_in(every))
+            };
+            let driven: Vec<_> = (0..CYCLES).map(|_| drive()).collect();
             stream.run(|addresses, xs, valid| {
                 for (cycle, &((address, x), request)) in driven.iter().enumerate() {
                     (addresses[cycle], xs[cycle], valid[cycle]) = (address, x, request);
                 }
             });
+            let (results, requested) = stream.results();
             for (cycle, &((address, x), in_valid)) in driven.iter().enumerate() {
+                let result = datapath.evaluate(address, x);
+                assert_eq!(results[cycle], result.intensity, "{address} {x}");
+                assert_eq!(stream.status(cycle), result.status, "{address} {x}");
+                assert_eq!(requested[cycle], in_valid);
                 let inputs = Inputs { reset: false, in_valid, address, x, out_ready: true };
                 let outputs = pipeline.combinational(&inputs);
                 assert_eq!(stream.outputs(cycle), outputs, "cycle {cycle}");

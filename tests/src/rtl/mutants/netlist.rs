@@ -30,21 +30,53 @@ const POWER_UPS: [&[&str]; 3] = [&[], &["+verilator+rand+reset+0"], &["+verilato
 /// When Yosys fails, or finds fewer.
 pub fn mutate(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, Failure> {
     let sources = hw_model::rtl::SOURCES.map(|(name, _)| name).join(" ");
-    let script = format!(
+    let netlist = format!(
         "read_verilog -sv blysk_pkg.sv {sources}; prep -nordff -flatten -top blysk; wreduce; opt -full; clean; \
-         write_rtlil {RIGHT}; mutate -list {count} -seed {seed} -ctrl mutant 16 1 -o {LIST}; \
-         script {LIST}; write_verilog -noattr {NETLIST}"
+         write_rtlil {RIGHT}"
     );
-    yosys(directory, &script)?;
-    std::fs::write(directory.join(DEFINE), "`define BLYSK_NETLIST\n")
-        .map_err(|error| Failure(error.to_string()))?;
-    let list = std::fs::read_to_string(directory.join(LIST))
-        .map_err(|error| Failure(error.to_string()))?;
-    let mutations: Vec<String> = list.lines().map(str::to_owned).collect();
-    if mutations.len() != count {
-        return failed(format!("{} mutations instead of {count}", mutations.len()));
-    }
+    yosys(directory, &netlist)?;
+    let mutations = draw(directory, count, seed)?;
+    let io_error = |error: std::io::Error| Failure(error.to_string());
+    std::fs::write(directory.join(LIST), mutations.join("\n") + "\n").map_err(io_error)?;
+    let mutated = format!("read_rtlil {RIGHT}; script {LIST}; write_verilog -noattr {NETLIST}");
+    yosys(directory, &mutated)?;
+    std::fs::write(directory.join(DEFINE), "`define BLYSK_NETLIST\n").map_err(io_error)?;
     Ok(mutations)
+}
+
+/// Draws mutations until there are enough that are hardware, and numbers them from 1.
+fn draw(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, Failure> {
+    /// How many more may have to be drawn.
+    const MORE: usize = 50;
+    for drawn in count..=count + MORE {
+        let list = format!("mutate -list {drawn} -seed {seed} -ctrl mutant 16 1 -o {LIST}");
+        yosys(directory, &format!("read_rtlil {RIGHT}; {list}"))?;
+        let text = std::fs::read_to_string(directory.join(LIST))
+            .map_err(|error| Failure(error.to_string()))?;
+        let sensible = text.lines().filter(|mutation| is_hardware(mutation));
+        if sensible.clone().count() >= count {
+            return Ok((1..).zip(sensible.take(count)).map(|(n, m)| numbered(m, n)).collect());
+        }
+    }
+    failed(format!("there are not {count} mutations"))
+}
+
+/// Yosys's memory cell has clocks, enables and resets for its read ports even where it has none. A wire to
+/// them is no hardware, and Yosys cannot write it as Verilog.
+fn is_hardware(mutation: &str) -> bool {
+    let port = mutation.split_whitespace().skip_while(|&word| word != "-port").nth(1);
+    port.is_none_or(|port| !port.starts_with("RD_") || matches!(port, "RD_ADDR" | "RD_DATA"))
+}
+
+/// A mutation that is switched on by this number.
+fn numbered(mutation: &str, number: usize) -> String {
+    let words = mutation.split_whitespace().enumerate();
+    // mutate -ctrl <signal> <width> <number> …
+    let words = words.map(|(place, word)| match place {
+        4 => number.to_string(),
+        _ => word.to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
 }
 
 /// The sources of the netlist with its wrapper.
@@ -122,5 +154,22 @@ pub fn without_control(mutation: &str) -> String {
     match words.iter().position(|&word| word == "-ctrl") {
         Some(at) => [&words[..at], &words[at + 4..]].concat().join(" "),
         None => words.join(" "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_hardware_is_not_drawn_and_the_rest_is_numbered() {
+        let mutation = |port| format!("mutate -ctrl mutant 16 7 -mode inv -cell rom -port {port}");
+        let kept = ["RD_ADDR", "RD_DATA", "A"].map(|port| is_hardware(&mutation(port)));
+        assert_eq!(kept, [true; 3]);
+        let dropped = ["RD_ARST", "RD_SRST", "RD_CLK", "RD_EN"];
+        assert_eq!(dropped.map(|port| is_hardware(&mutation(port))), [false; 4]);
+        let first = numbered(&mutation("A"), 1);
+        assert_eq!(first, "mutate -ctrl mutant 16 1 -mode inv -cell rom -port A");
+        assert_eq!(without_control(&first), "mutate -mode inv -cell rom -port A");
     }
 }
