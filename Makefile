@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -38,6 +38,23 @@ docs: ## write the hardware reference, docs/hardware/, and docs/CLAIMS.md again
 	@$(BLYSK) document --all-presets --out docs/hardware
 	@$(BLYSK) claims --format markdown > target/claims.md
 	@mv target/claims.md docs/CLAIMS.md
+
+# One scene and preset to a line of the list below; each gives the named picture of `blysk render`.
+PICTURES = torus_knot:paper:pipeline:480x270 one_material:paper:methods:240x180 \
+	many_materials:paper:pipeline:480x300 many_materials:paper:difference:480x300
+
+pictures: ## docs/pictures/, and the mesh and the schema of docs/scenes, written again
+	@$(BLYSK) mesh --out docs/scenes/torus_knot.obj
+	@mkdir -p docs/pictures $(RESULTS)
+	@$(BLYSK) scene --schema > $(RESULTS)/scene.schema.json
+	@mv $(RESULTS)/scene.schema.json docs/scene.schema.json
+	@for picture in $(PICTURES); do \
+		IFS=: read -r scene preset name size <<< "$$picture"; \
+		out=$(RESULTS)/scenes/$${scene}_$$preset; \
+		$(BLYSK) render docs/scenes/$$scene.json --preset $$preset --size $$size --out $$out --format csv > /dev/null; \
+		target=$${scene}_$$([ $$name = pipeline ] && echo $$preset || echo $$name).png; \
+		cp $$out/$$name.png docs/pictures/$$target; \
+	done
 
 setup: ## install what the tests need and cargo does not bring
 	@scripts/setup

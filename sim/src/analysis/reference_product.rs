@@ -13,7 +13,7 @@
 //! relative error is at most n(n + 1)/2 · 2⁻¹⁰⁶: 2⁻⁹⁰ for n = 256, 2⁻⁸² for [`GREATEST`]. h is not
 //! renormalised, and need not be: l stays small enough beside it.
 //!
-//! Below [`VANISHED`] both become 0, before a residual could underflow; that is an absolute error of the
+//! Below `VANISHED` both become 0, before a residual could underflow; that is an absolute error of the
 //! size of that constant.
 //!
 //! An n that is no integer, or too great to walk to, is answered by the correctly rounded f64: l = 0, and

@@ -10,13 +10,16 @@ mod coefficients;
 mod configuration;
 mod design;
 mod document;
+mod mesh;
 mod pareto;
 mod pareto_tables;
 mod presets;
 mod refine;
+mod render;
 mod report;
 mod rom;
 mod rtl;
+mod scene;
 mod simulate;
 mod stability;
 mod stability_tables;
@@ -54,6 +57,9 @@ enum Command {
     Document(document::Args),
     Stability(stability::Args),
     Pareto(pareto::Args),
+    Render(render::Args),
+    Mesh(mesh::Args),
+    Scene(scene::Args),
     Presets(presets::Args),
 }
 
@@ -125,6 +131,9 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
         Command::Pareto(args) => pareto::run(&args, out),
+        Command::Render(args) => render::run(&args, out),
+        Command::Mesh(args) => mesh::run(&args, out),
+        Command::Scene(args) => scene::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

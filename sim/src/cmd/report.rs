@@ -143,12 +143,17 @@ pub(super) struct Bar(ProgressBar);
 
 impl Bar {
     pub(super) fn new(samples: Option<u64>) -> Self {
-        match samples {
-            Some(samples) if std::io::stderr().is_terminal() => {
-                let bar = ProgressBar::new(samples);
-                let style = ProgressStyle::with_template(
-                    "{bar:40} {percent:>3} %  {human_pos} of {human_len} samples, {eta} left",
-                );
+        Self::counting(samples, "samples")
+    }
+
+    /// A bar that counts so many of these; none where the count is not known.
+    pub(super) fn counting(count: Option<u64>, what: &str) -> Self {
+        match count {
+            Some(count) if std::io::stderr().is_terminal() => {
+                let bar = ProgressBar::new(count);
+                let style = ProgressStyle::with_template(&format!(
+                    "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {what}, {{eta}} left",
+                ));
                 Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
             }
             _ => Self(ProgressBar::hidden()),

@@ -6,14 +6,14 @@ use svg::node::element::{Description, Group, Polygon, Polyline, Rectangle, Text,
 /// The bundled font first, as in the plots.
 const FONT: &str = "'DejaVu Sans', Verdana, sans-serif";
 /// Free space around a picture.
-const MARGIN: f64 = 12.0;
+pub(crate) const MARGIN: f64 = 12.0;
 
 /// A place, in SVG units, y downwards.
-pub(super) type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
 
 /// Which part of a text stands at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     /// Its beginning.
     Start,
     /// Its middle.
@@ -24,7 +24,7 @@ pub(super) enum Anchor {
 
 /// Colours, chosen from those of Okabe and Ito and their tints, which people with any common colour
 /// vision deficiency can tell apart. Nothing is said by colour alone.
-pub(super) mod colour {
+pub(crate) mod colour {
     /// Letters and outlines.
     pub(crate) const INK: &str = "#1a1a1a";
     /// Words that stand back.
@@ -48,18 +48,18 @@ pub(super) mod colour {
 }
 
 /// A picture under way.
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     group: Group,
 }
 
 impl Canvas {
     /// An empty picture.
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { group: Group::new().set("font-family", FONT) }
     }
 
     /// A filled box with an outline.
-    pub(super) fn rectangle(&mut self, (x, y): Point, (width, height): Point, fill: &str) {
+    pub(crate) fn rectangle(&mut self, (x, y): Point, (width, height): Point, fill: &str) {
         let shape = Self::area((x, y), (width, height), fill)
             .set("stroke", colour::INK)
             .set("stroke-width", 1);
@@ -67,7 +67,7 @@ impl Canvas {
     }
 
     /// A filled box without an outline.
-    pub(super) fn block(&mut self, place: Point, size: Point, fill: &str) {
+    pub(crate) fn block(&mut self, place: Point, size: Point, fill: &str) {
         self.add(Self::area(place, size, fill));
     }
 
@@ -81,7 +81,7 @@ impl Canvas {
     }
 
     /// A filled shape with an outline.
-    pub(super) fn polygon(&mut self, points: &[Point], fill: &str) {
+    pub(crate) fn polygon(&mut self, points: &[Point], fill: &str) {
         let shape = Polygon::new()
             .set("points", listed(points))
             .set("fill", fill)
@@ -91,12 +91,12 @@ impl Canvas {
     }
 
     /// A line through these places.
-    pub(super) fn line(&mut self, points: &[Point], stroke: &str, width: f64) {
+    pub(crate) fn line(&mut self, points: &[Point], stroke: &str, width: f64) {
         self.add(Self::stroke(points, stroke, width));
     }
 
     /// A broken line through these places.
-    pub(super) fn dashes(&mut self, points: &[Point], stroke: &str) {
+    pub(crate) fn dashes(&mut self, points: &[Point], stroke: &str) {
         self.add(Self::stroke(points, stroke, 1.0).set("stroke-dasharray", "3 3"));
     }
 
@@ -109,7 +109,7 @@ impl Canvas {
     }
 
     /// A wire with an arrow head at its end.
-    pub(super) fn arrow(&mut self, points: &[Point]) {
+    pub(crate) fn arrow(&mut self, points: &[Point]) {
         const LENGTH: f64 = 8.0;
         const HALF: f64 = 3.5;
         let [.., (from_x, from_y), (x, y)] = *points else { return };
@@ -127,12 +127,12 @@ impl Canvas {
     }
 
     /// A word, its baseline at this height.
-    pub(super) fn text(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
+    pub(crate) fn text(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
         self.words((x, y), words, anchor, size, colour::INK);
     }
 
     /// A word that stands back.
-    pub(super) fn quiet(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
+    pub(crate) fn quiet(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
         self.words((x, y), words, anchor, size, colour::QUIET);
     }
 
@@ -156,7 +156,7 @@ impl Canvas {
     }
 
     /// The picture as text: on white, with a margin; title and description for those who listen.
-    pub(super) fn finish(self, (width, height): Point, title: &str, description: &str) -> String {
+    pub(crate) fn finish(self, (width, height): Point, title: &str, description: &str) -> String {
         let (wide, high) = (width + 2.0 * MARGIN, height + 2.0 * MARGIN);
         let document = Document::new()
             .set("viewBox", format!("0 0 {wide} {high}"))
@@ -172,7 +172,7 @@ impl Canvas {
 }
 
 /// The corners of a wire on its way up that hops over another at this place.
-pub(super) fn hop((x, y): Point) -> Vec<Point> {
+pub(crate) fn hop((x, y): Point) -> Vec<Point> {
     const RADIUS: f64 = 6.0;
     const CORNERS: u32 = 8;
     let corner = |index| {

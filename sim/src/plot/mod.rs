@@ -29,5 +29,6 @@ pub use error::PlotError;
 pub use figures::{Curve, angle_grid, error_versus_exponent, intensity_versus_angle};
 #[cfg(test)]
 pub(crate) use raster::parse;
+pub(crate) use raster::svg_to_pixels;
 pub use raster::svg_to_png;
 pub use spot::{Kind, Shape, Spot};

@@ -27,6 +27,21 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
 /// # Errors
 /// When the text is not an SVG, or the picture would have no pixels or more than 16 384 a side.
 pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
+    let pixels = drawn(svg, scale)?;
+    pixels.encode_png().map_err(|error| PlotError::Png(error.to_string()))
+}
+
+/// Draws an SVG with an opaque ground at one pixel to the unit: width, height, and red, green and blue of every pixel.
+///
+/// # Errors
+/// As [`svg_to_png`].
+pub(crate) fn svg_to_pixels(svg: &str) -> Result<(u32, u32, Vec<[u8; 3]>), PlotError> {
+    let pixels = drawn(svg, 1.0)?;
+    let colours = pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
+    Ok((pixels.width(), pixels.height(), colours.collect()))
+}
+
+fn drawn(svg: &str, scale: f32) -> Result<Pixmap, PlotError> {
     let tree = parse(svg)?;
     let (width, height) = (tree.size().width() * scale, tree.size().height() * scale);
     let refused = PlotError::Size { width, height, scale };
@@ -38,7 +53,7 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
     let mut pixels = Pixmap::new(width.ceil() as u32, height.ceil() as u32).ok_or(refused)?;
     let transform = Transform::from_scale(scale, scale);
     resvg::render(&tree, transform, &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| PlotError::Png(error.to_string()))
+    Ok(pixels)
 }
 
 /// Reads an SVG with the bundled font and no other.

@@ -5,4 +5,5 @@ pub mod figures;
 pub mod files;
 pub mod pareto;
 pub mod pareto_figures;
+pub mod render;
 pub mod stability;

@@ -7,6 +7,7 @@ mod answers;
 mod configurations;
 mod options;
 mod places;
+mod scenes;
 mod stimulus;
 
 use blysk_tests::cli::SMALL;

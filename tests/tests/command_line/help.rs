@@ -1,10 +1,12 @@
 //! Help: complete, and its examples can be typed as they stand.
 
+use std::path::Path;
+
 use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 18] = [
     "report",
     "vectors",
     "rtl",
@@ -20,6 +22,9 @@ const COMMANDS: [&str; 15] = [
     "stability",
     "pareto",
     "presets",
+    "render",
+    "mesh",
+    "scene",
 ];
 
 /// The command lines after "Example:" or "Examples:".
@@ -34,6 +39,9 @@ fn with_files(bench: &Bench) {
     bench.write("in.csv", "n,x\n64,0.99\n300,1\n2,-0.0\n");
     let _summary = bench.good("vectors --config small.json --count 8 --out vectors");
     bench.write("dut.csv", Log::right(bench, "vectors").text());
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes");
+    let scene = std::fs::read_to_string(scenes.join("one_material.json")).unwrap();
+    bench.write("scene.json", scene.replace("\"exponent\": 12", "\"exponent\": 4"));
     let shown = bench.good("presets show compact");
     // The example says --exhaustive, and 2^23 x for each of 256 exponents take a while.
     let mine = shown.replace("UQ1.23", "UQ1.11").replace("1..=256", "1..=4");

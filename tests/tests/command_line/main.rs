@@ -12,6 +12,7 @@ mod output;
 mod pareto;
 mod presets;
 mod refine;
+mod render;
 mod report;
 mod report_against_brute_force;
 mod rom;

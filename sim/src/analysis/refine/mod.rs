@@ -3,9 +3,9 @@
 //! Rounding each coefficient to the nearest is the best for none of them: errors of c1, c2 and c3 make up for
 //! each other, and the lines round as well. So the integers are judged by the pipeline itself, at every
 //! representable x of the range, against the correctly rounded x^n. One segment of one row at a time
-//! ([`piece`]): good sets of integers are proposed by real arithmetic on a few points ([`propose`]), tried
+//! (`piece`): good sets of integers are proposed by real arithmetic on a few points (`propose`), tried
 //! through the data path, and from the best of them the search steps to better neighbours until there is
-//! none ([`descent`]).
+//! none (`descent`).
 //!
 //! The range is the one the method was fitted to, unless all that the polynomial answers is asked for:
 //! below the epicentre a cubic with `"cut": "minimum"` is far from x^n, and would be bent towards it at the

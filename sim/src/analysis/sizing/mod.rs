@@ -1,10 +1,10 @@
 //! The least hardware that keeps an error: form, method, segments, widths and rounding.
 //!
-//! What can be built is first held against x^n in real numbers ([`candidates`]). What remains gets widths that
+//! What can be built is first held against x^n in real numbers (`candidates`). What remains gets widths that
 //! are proved to keep the error, in every rounding mode, and the designs are ranked by their hardware: multiplier
 //! bits, then ROM bits, then latency, then register bits. The first few are narrowed as far as the measured
-//! error allows ([`narrow`]), and the least of them is it. Every register then has a witness: one (n, x) at
-//! which a bit less breaks the error or overflows ([`witness`]).
+//! error allows (`narrow`), and the least of them is it. Every register then has a witness: one (n, x) at
+//! which a bit less breaks the error or overflows (`witness`).
 //!
 //! The error of the result is not proved register by register but measured at every x of the range.
 

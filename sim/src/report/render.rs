@@ -1,0 +1,119 @@
+//! `render.json` and `render.csv`: what a picture shows of the pipeline, without times.
+
+use serde::Serialize;
+use thiserror::Error;
+use vectors::whole_file::{OutputError, OutputSet};
+
+use crate::render::{Cycles, Difference, MaterialFigures};
+use crate::scene::{Image, Scene, Transfer};
+
+/// The pictures of a rendering.
+pub const PICTURES: [&str; 4] = ["reference.png", "pipeline.png", "difference.png", "methods.png"];
+
+/// The tables.
+pub const TABLES: [&str; 2] = ["render.csv", "render.json"];
+
+/// Why a rendering was not written.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RenderFilesError {
+    /// A file.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// A row that does not become CSV.
+    #[error("render.csv: {0}")]
+    Csv(#[from] csv::Error),
+    /// Figures that do not become JSON.
+    #[error("render.json: {0}")]
+    Json(#[from] serde_json::Error),
+}
+
+/// The figures of a rendering.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RenderReport {
+    /// The scene's name.
+    pub scene: String,
+    /// The configuration's name.
+    pub configuration: String,
+    /// `phong` or `blinn`.
+    pub angle: &'static str,
+    /// Pixels of a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Bits of a display code.
+    pub display_bits: u32,
+    /// `srgb` or `linear`.
+    pub transfer: &'static str,
+    /// Lights.
+    pub lights: usize,
+    /// Pixels that show nothing.
+    pub background_pixels: u64,
+    /// The picture of the pipeline against that of x^n.
+    pub picture: Difference,
+    /// The samples of each material.
+    pub materials: Vec<MaterialFigures>,
+    /// The clock of the cycles, in MHz.
+    pub clock_mhz: f64,
+    /// Where every sample goes to the pipeline.
+    pub every: Cycles,
+    /// Where software leaves out those that face away or lie below the cut.
+    pub needed: Cycles,
+}
+
+impl RenderReport {
+    /// `render.csv`: a row for each material.
+    ///
+    /// # Errors
+    /// Never for what a rendering gives; the type says what the crate says.
+    pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        for row in &self.materials {
+            csv.serialize(row)?;
+        }
+        csv.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    }
+
+    /// `render.json`: everything.
+    ///
+    /// # Errors
+    /// Never for what a rendering gives; the type says what the crate says.
+    pub fn json(&self) -> Result<String, serde_json::Error> {
+        let mut text = serde_json::to_string_pretty(self)?;
+        text.push('\n');
+        Ok(text)
+    }
+}
+
+/// The names of a picture's curve and its bits, for the report.
+#[must_use]
+pub const fn transfer_name(image: &Image) -> &'static str {
+    match image.transfer {
+        Transfer::Srgb => "srgb",
+        Transfer::Linear => "linear",
+    }
+}
+
+/// Adds pictures and tables to `set`: `pictures` in the order of [`PICTURES`].
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write(
+    set: &mut OutputSet,
+    report: &RenderReport,
+    pictures: &[Vec<u8>; 4],
+) -> Result<(), RenderFilesError> {
+    for (name, picture) in PICTURES.into_iter().zip(pictures) {
+        set.write(name, picture)?;
+    }
+    let [csv, json] = TABLES;
+    set.write(csv, report.csv()?)?;
+    set.write(json, report.json()?)?;
+    Ok(())
+}
+
+/// Pixels of the picture that show nothing.
+#[must_use]
+pub fn background(scene: &Scene, surface_pixels: usize) -> u64 {
+    u64::from(scene.image.width) * u64::from(scene.image.height) - surface_pixels as u64
+}
