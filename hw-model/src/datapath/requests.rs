@@ -232,9 +232,9 @@ impl Lines {
         let (input_one, one) = (L::from_bits(front_end.one), L::from_bits(output_one));
         // Copied: a loop that writes must not have to read it again.
         let words = *words;
-        for request in 0..REQUESTS {
+        for (request, &given) in xs.iter().enumerate() {
             let field = |name| L::from_bits(words.get(name, request));
-            let given = L::from_bits(xs[request]);
+            let given = L::from_bits(given);
             let x = front_end.clamp_input(given);
             let region = front_end.region(given, field(FieldName::Cut));
             let region = if words.known(request) { region } else { Region::Zero };

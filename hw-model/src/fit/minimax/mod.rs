@@ -1,17 +1,17 @@
 //! The cubics whose greatest error is least.
 //!
-//! [Rom]'s cubics pass through given points. These give that up for the least greatest error over a range of
+//! \[Rom\]'s cubics pass through given points. These give that up for the least greatest error over a range of
 //! x: f(1) = 1 alone is kept, so the first segment still has three coefficients. On the epicentre that
 //! is 88 times less error than `hermite` for n = 128.
 //!
 //! **What makes it the least** (Chebyshev). 1 − s·(k1 − s·(k2 − s·k3)) has three free coefficients, and
 //! s, s², s³ vanish together at s = 0 only. So the error is least when it reaches its greatest
-//! magnitude at four points, with alternating signs ([`exchange`]). A segment further down has a free
+//! magnitude at four points, with alternating signs (`exchange`). A segment further down has a free
 //! constant term, and five such points. The fourth derivative of x^n never changes its sign on (0, 1), so the
 //! error has three turning points and no more: they are three of the points, and the ends of the range are
 //! the others.
 //!
-//! **Segments** ([`segments`]). The hand-over points are where every segment has the same greatest
+//! **Segments** (`segments`). The hand-over points are where every segment has the same greatest
 //! error E. Then neighbours agree there of themselves: the error has the same sign at both ends of every
 //! segment but the first, and at the end of the first, so both sides are x^n ∓ E. Where the range is not
 //! given, it ends where x^n = E: what is put to zero below adds no greater error, and the last segment, which
