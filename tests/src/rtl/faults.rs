@@ -75,9 +75,11 @@ pub const FAULTS: &[Fault] = &[
     fault!("a valid flag out of nothing", "compact", "blysk_handshake.sv",
         "assign valid_d = (advance & offered)" => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)", "valid flag of rank 2 is 1, expected 0"),
     fault!("c1 loads while it stalls", "compact", "blysk.sv",
-        ".clk_i, .load_i(load[2:1]), .value_i(c1)" => ".clk_i, .load_i(2'b11), .value_i(c1)", ".c1 is"),
+        ".clk_i, .load_i(load[2:1]), .value_i(c1_chosen)" => ".clk_i, .load_i(2'b11), .value_i(c1_chosen)", ".c1 is"),
     fault!("a stage loads while it stalls", "compact", "blysk_stage.sv",
         "if (load_i) t_q <= t_d;" => "t_q <= t_d;", "stage"),
+    fault!("the outer segment takes the inner one's c2", "precise", "blysk.sv",
+        "c2_chosen = outer ? c2_outer : c2;" => "c2_chosen = outer ? c2 : c2;", ".c2 is"),
     fault!("the divisor adds", "paper", "blysk_tail.sv",
         ".SUBTRACT(1)" => ".SUBTRACT(0)", "tail0.divisor is"),
     fault!("the dividend a place too low", "paper", "blysk_tail.sv",
@@ -93,23 +95,46 @@ pub const FAULTS: &[Fault] = &[
 ];
 
 impl Fault {
-    /// Plants the fault into a directory of RTL.
+    /// The file with the wrong line.
     ///
     /// # Errors
     /// When the right text does not stand there exactly once.
+    pub fn apply(&self, text: &str) -> Result<String, Failure> {
+        match text.matches(self.right).count() {
+            1 => Ok(text.replace(self.right, self.wrong)),
+            places => failed(format!(
+                "the fault \"{}\" fits {places} places of {}, not one",
+                self.name, self.file
+            )),
+        }
+    }
+
+    /// Plants the fault into a directory of RTL.
+    ///
+    /// # Errors
+    /// As [`Fault::apply`], and when the file cannot be read or written.
     pub fn plant(&self, directory: &Path) -> Result<(), Failure> {
         let path = directory.join(self.file);
         let text = std::fs::read_to_string(&path)
             .map_err(|error| Failure(format!("cannot read {}: {error}", path.display())))?;
-        if text.matches(self.right).count() != 1 {
-            return failed(format!(
-                "the fault \"{}\" fits {} places of {}, not one",
-                self.name,
-                text.matches(self.right).count(),
-                self.file
-            ));
-        }
-        std::fs::write(&path, text.replace(self.right, self.wrong))
+        std::fs::write(&path, self.apply(&text)?)
             .map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use hw_model::rtl::SOURCES;
+
+    use super::*;
+
+    /// The simulators are the last part of `make test`; a line that was rewritten is found here.
+    #[test]
+    fn every_fault_finds_its_line() {
+        assert!(FAULTS.len() > 20);
+        for fault in FAULTS {
+            let (_, text) = SOURCES.iter().find(|(name, _)| *name == fault.file).unwrap();
+            assert_ne!(fault.apply(text).unwrap(), *text, "{}", fault.name);
+        }
     }
 }
