@@ -154,17 +154,12 @@ struct Edge {
     x: i64,
 }
 
-/// A request and its result.
-#[derive(Debug, Clone, Copy, Default)]
-struct Request {
-    address: u32,
-    x: i64,
-    intensity: i64,
-    status: Status,
-}
-
 /// Results that are computed together: as many as a vector register has lanes.
-const BATCH: usize = 8;
+const TOGETHER: usize = 8;
+
+/// Places for requests: more than there are ranks, and as many again as are computed together. A division has 63
+/// quotient bits at most, so there are fewer than 128 ranks.
+const PLACES: usize = 256;
 
 /// The clocked pipeline of one configuration.
 ///
@@ -183,12 +178,10 @@ pub struct Pipeline<'a> {
     edge_d: Edge,
     /// Requests that entered.
     entered: u64,
-    /// The last of them, each in the place of its number; more than there are ranks, and a power of two.
-    requests: Vec<Request>,
+    /// The last of them, each in the place of its number, with their results.
+    requests: Box<Requests<PLACES, TOGETHER>>,
     /// Requests up to this one have a result.
     answered: u64,
-    /// Room to compute results in.
-    batch: Box<Requests<BATCH>>,
     /// The same with all their values, of requests up to `looked_at`.
     flights: Vec<Flight>,
     looked_at: u64,
@@ -200,9 +193,7 @@ impl<'a> Pipeline<'a> {
     #[must_use]
     pub fn new(datapath: &'a Datapath) -> Self {
         let ranks = datapath.rank_count();
-        // A division has 63 quotient bits at most.
         debug_assert!(ranks < 128);
-        let places = (ranks + 1).next_power_of_two();
         Self {
             datapath,
             logic: datapath.logic(),
@@ -212,10 +203,9 @@ impl<'a> Pipeline<'a> {
             places_q: Places { valid: 0, left: 0, before: 0 },
             edge_d: Edge::default(),
             entered: 0,
-            requests: vec![Request::default(); places],
+            requests: datapath.requests(),
             answered: 0,
-            batch: datapath.requests(),
-            flights: vec![datapath.flight(); places],
+            flights: vec![datapath.flight(); (ranks + 1).next_power_of_two()],
             looked_at: 0,
             remains: Remains { loaded: 0, flights: vec![datapath.flight(); ranks] },
         }
@@ -232,8 +222,8 @@ impl<'a> Pipeline<'a> {
     pub fn ranks(&mut self) -> Ranks<'_> {
         let places = self.flights.len() as u64;
         for number in self.looked_at.max(self.entered.saturating_sub(places))..self.entered {
-            let place = self.place(number);
-            let Request { address, x, .. } = self.requests[place];
+            let (address, x) = self.request(number);
+            let place = number as usize & (self.flights.len() - 1);
             self.logic.enter(self.datapath, address, x, &mut self.flights[place]);
         }
         self.looked_at = self.entered;
@@ -273,8 +263,15 @@ impl<'a> Pipeline<'a> {
     /// when it is not above the last empty one.
     #[inline(always)]
     fn cycle(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
+        let Inputs { reset, address, x, .. } = *inputs;
         let valid = self.places_q.valid;
-        let request = inputs.in_valid && !inputs.reset;
+        // A full pipeline that moves stays full.
+        if valid == self.all && inputs.in_valid && inputs.out_ready && !reset {
+            let (intensity, status) = self.next_result();
+            let edge = Edge { valid, reset, takes: true, leaves: true, address, x };
+            return (Outputs { in_ready: true, out_valid: true, intensity, status }, edge);
+        }
+        let request = inputs.in_valid && !reset;
         let offered = (valid << 1 | u128::from(request)) & self.all;
         let (valid_d, advances) = if inputs.out_ready {
             (offered, true)
@@ -284,18 +281,8 @@ impl<'a> Pipeline<'a> {
             (advance & offered | valid & !advance, empty != 0)
         };
         let out_valid = valid & self.last != 0;
-        let (intensity, status) = if out_valid {
-            if self.answered <= self.places_q.left {
-                self.answer();
-            }
-            // The request that leaves next.
-            let request = &self.requests[self.place(self.places_q.left)];
-            (request.intensity, request.status)
-        } else {
-            self.last_result()
-        };
-        let in_ready = advances && !inputs.reset;
-        let Inputs { reset, address, x, .. } = *inputs;
+        let (intensity, status) = if out_valid { self.next_result() } else { self.last_result() };
+        let in_ready = advances && !reset;
         let (takes, leaves) = (request && advances, out_valid && inputs.out_ready);
         let edge = Edge { valid: valid_d, reset, takes, leaves, address, x };
         (Outputs { in_ready, out_valid, intensity, status }, edge)
@@ -304,13 +291,10 @@ impl<'a> Pipeline<'a> {
     #[inline(always)]
     fn rise(&mut self, edge: Edge) {
         if edge.takes {
-            let Edge { address, x, .. } = edge;
-            let place = self.place(self.entered);
-            self.requests[place] = Request { address, x, ..Request::default() };
-            let index = (self.entered - self.answered) as usize % BATCH;
-            (self.batch.addresses[index], self.batch.xs[index]) = (address, x);
+            let place = place(self.entered);
+            (self.requests.addresses[place], self.requests.xs[place]) = (edge.address, edge.x);
             self.entered += 1;
-            if index + 1 == BATCH {
+            if self.entered - self.answered == TOGETHER as u64 {
                 self.answer();
             }
         }
@@ -321,25 +305,41 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// Computes the results of all requests that have none; they stand in the batch, at most as many as it has
-    /// places. What else stands there was answered before, and is nobody's.
+    /// The result of the request that leaves next.
+    #[inline(always)]
+    fn next_result(&mut self) -> (i64, Status) {
+        if self.answered <= self.places_q.left {
+            self.answer();
+        }
+        self.result(self.places_q.left)
+    }
+
+    /// Computes results from the first request on that has none. Places behind the last request hold others, which
+    /// get the result that they had.
     #[inline(never)]
     fn answer(&mut self) {
-        self.logic.evaluate(self.datapath, &mut self.batch);
-        for (index, number) in (self.answered..self.entered).enumerate() {
-            let place = self.place(number);
-            self.requests[place].intensity = self.batch.intensities()[index];
-            self.requests[place].status = self.batch.status(index);
-        }
-        self.answered = self.entered;
+        let first = place(self.answered);
+        let end = self.logic.evaluate(self.datapath, &mut self.requests, first);
+        self.answered = self.entered.min(self.answered + (end - first) as u64);
+    }
+
+    #[inline(always)]
+    fn result(&self, number: u64) -> (i64, Status) {
+        let place = place(number);
+        (self.requests.intensities()[place], self.requests.status(place))
+    }
+
+    #[inline(always)]
+    fn request(&self, number: u64) -> (u32, i64) {
+        let place = place(number);
+        (self.requests.addresses[place], self.requests.xs[place])
     }
 
     /// What the last rank shows while it is empty: what it held before.
     fn last_result(&self) -> (i64, Status) {
         let last = self.ranks - 1;
         if let Some(number) = self.places_q.shown(last) {
-            let request = &self.requests[self.place(number)];
-            return (request.intensity, request.status);
+            return self.result(number);
         }
         self.remains
             .shown(last)
@@ -351,7 +351,7 @@ impl<'a> Pipeline<'a> {
     fn reset(&mut self) {
         for rank in 0..self.ranks {
             if let Some(number) = self.places_q.shown(rank) {
-                let Request { address, x, .. } = self.requests[self.place(number)];
+                let (address, x) = self.request(number);
                 let flight = &mut self.remains.flights[rank];
                 self.logic.enter(self.datapath, address, x, flight);
                 self.remains.loaded |= 1 << rank;
@@ -360,9 +360,9 @@ impl<'a> Pipeline<'a> {
         self.places_q = Places { valid: 0, left: self.entered, before: self.entered };
         self.answered = self.entered;
     }
+}
 
-    #[inline(always)]
-    fn place(&self, number: u64) -> usize {
-        number as usize & (self.requests.len() - 1)
-    }
+#[inline(always)]
+const fn place(number: u64) -> usize {
+    number as usize % PLACES
 }

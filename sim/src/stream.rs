@@ -29,7 +29,7 @@ pub struct Stream<'a> {
 /// The requests of some cycles: a request for each, though a bubble's is nobody's.
 #[derive(Debug, Clone)]
 struct Cycles {
-    requests: Box<Requests<CYCLES>>,
+    requests: Box<Requests<CYCLES, CYCLES>>,
     valid: [bool; CYCLES],
 }
 
@@ -68,7 +68,7 @@ impl<'a> Stream<'a> {
         std::mem::swap(&mut self.now, &mut self.before);
         let Cycles { requests, valid } = &mut self.now;
         drive(&mut requests.addresses, &mut requests.xs, valid);
-        self.logic.evaluate(self.datapath, requests);
+        self.logic.evaluate(self.datapath, requests, 0);
         self.begin += CYCLES as u64;
     }
 

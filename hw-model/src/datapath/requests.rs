@@ -20,42 +20,47 @@ use super::signals::Status;
 use super::stage::MultiplyAdd;
 use super::tail::Division;
 
-/// So many requests and their results. Fill in addresses and x; [`Logic::evaluate`] does the rest.
+/// So many requests and their results, of which `W` are evaluated together. Fill in addresses and x;
+/// [`Logic::evaluate`] does the rest.
 #[derive(Debug, Clone)]
-pub struct Requests<const N: usize> {
+pub struct Requests<const N: usize, const W: usize> {
     /// ROM addresses.
     pub addresses: [u32; N],
     /// x, bits in the input format.
     pub xs: [i64; N],
-    /// The words of the addresses, where they are not all the same.
-    words: Words<N>,
-    results: Results<N>,
-}
-
-#[derive(Debug, Clone)]
-struct Results<const N: usize> {
     intensities: [i64; N],
     /// Flags.
     status: [i64; N],
     /// [`Region`]s.
     regions: [i64; N],
+    /// The words of the addresses under evaluation.
+    words: Words<W>,
+}
+
+/// Where the results of so many requests go.
+struct Results<'a, const W: usize> {
+    intensities: &'a mut [i64; W],
+    status: &'a mut [i64; W],
+    regions: &'a mut [i64; W],
 }
 
 /// A list for each field of the ROM.
 #[derive(Debug, Clone)]
-struct Words<const N: usize> {
-    fields: [[i64; N]; FieldName::ALL.len()],
+struct Words<const W: usize> {
+    fields: [[i64; W]; FieldName::ALL.len()],
     /// 1 where the address has a word.
-    known: [i64; N],
+    known: [i64; W],
+    /// The address that all of them are of: a sweep need not fetch again.
+    all_of: Option<u32>,
 }
 
 /// Where a loop over requests finds their words.
-trait Fetched: Copy {
+trait Fetched {
     fn get(&self, name: FieldName, request: usize) -> i64;
     fn known(&self, request: usize) -> bool;
 }
 
-impl<const N: usize> Fetched for &Words<N> {
+impl<const W: usize> Fetched for Words<W> {
     #[inline(always)]
     fn get(&self, name: FieldName, request: usize) -> i64 {
         self.fields[name as usize][request]
@@ -67,47 +72,83 @@ impl<const N: usize> Fetched for &Words<N> {
 }
 
 /// The one word of all requests: nothing is fetched in the loop.
-#[derive(Clone, Copy)]
-struct OneWord {
-    row: Row,
-    known: bool,
-}
-
-impl Fetched for OneWord {
+impl Fetched for Row {
     #[inline(always)]
     fn get(&self, name: FieldName, _: usize) -> i64 {
-        self.row.get(name)
+        self.get(name)
     }
     #[inline(always)]
     fn known(&self, _: usize) -> bool {
-        self.known
+        true
+    }
+}
+
+/// Up to so many requests, a loop over them becomes vector instructions only where all that it reads is in lists.
+const FEW: usize = 8;
+
+impl<const W: usize> Words<W> {
+    const NONE: Self = Self { fields: [[0; W]; FieldName::ALL.len()], known: [0; W], all_of: None };
+
+    /// The one word of all these addresses, or none and their words collected.
+    #[inline(always)]
+    fn fetch<'a>(&mut self, datapath: &'a Datapath, addresses: &[u32; W]) -> Option<&'a Row> {
+        let first = addresses[0];
+        let differ = addresses.iter().fold(0, |differ, address| differ | (address ^ first));
+        let one_word = datapath.rom.row(first).filter(|_| differ == 0);
+        if W > FEW && one_word.is_some() {
+            return one_word;
+        }
+        let all_of = (differ == 0).then_some(first);
+        if all_of.is_none() || self.all_of != all_of {
+            self.all_of = all_of;
+            self.collect(datapath, addresses);
+        }
+        None
+    }
+
+    fn collect(&mut self, datapath: &Datapath, addresses: &[u32; W]) {
+        let mut rows = [datapath.row_at(0); W];
+        for ((row, known), &address) in rows.iter_mut().zip(&mut self.known).zip(addresses) {
+            let found = datapath.rom.row(address);
+            *known = i64::from(found.is_some());
+            *row = found.unwrap_or(row);
+        }
+        for field in datapath.rom.layout().fields() {
+            let values = &mut self.fields[field.name as usize];
+            for (value, row) in values.iter_mut().zip(rows) {
+                *value = row.get(field.name);
+            }
+        }
     }
 }
 
 impl Datapath {
     /// Room for requests.
     #[must_use]
-    pub fn requests<const N: usize>(&self) -> Box<Requests<N>> {
+    pub fn requests<const N: usize, const W: usize>(&self) -> Box<Requests<N, W>> {
+        const { assert!(0 < W && W <= N) };
         Box::new(Requests {
             addresses: [0; N],
             xs: [0; N],
-            words: Words { fields: [[0; N]; FieldName::ALL.len()], known: [0; N] },
-            results: Results { intensities: [0; N], status: [0; N], regions: [0; N] },
+            intensities: [0; N],
+            status: [0; N],
+            regions: [0; N],
+            words: Words::NONE,
         })
     }
 }
 
-impl<const N: usize> Requests<N> {
+impl<const N: usize, const W: usize> Requests<N, W> {
     /// The intensities.
     #[must_use]
     pub const fn intensities(&self) -> &[i64; N] {
-        &self.results.intensities
+        &self.intensities
     }
 
     /// The flags of a result.
     #[must_use]
     pub const fn status(&self, request: usize) -> Status {
-        Status::of_bits(self.results.status[request] as u8)
+        Status::of_bits(self.status[request] as u8)
     }
 
     /// One request on its own, with every value that a rank may show of it.
@@ -117,118 +158,88 @@ impl<const N: usize> Requests<N> {
         logic.enter(datapath, self.addresses[request], self.xs[request], &mut flight);
         flight
     }
-
-    /// The one word of all, or their words collected.
-    fn fetch(&mut self, datapath: &Datapath) -> Option<OneWord> {
-        let first = self.addresses[0];
-        if self.addresses.iter().fold(0, |differ, address| differ | (address ^ first)) == 0 {
-            let known = datapath.rom.row(first);
-            let row = *known.unwrap_or_else(|| datapath.row_at(0));
-            return Some(OneWord { row, known: known.is_some() });
-        }
-        let mut rows = [datapath.row_at(0); N];
-        for ((row, known), &address) in
-            rows.iter_mut().zip(&mut self.words.known).zip(&self.addresses)
-        {
-            let found = datapath.rom.row(address);
-            *known = i64::from(found.is_some());
-            *row = found.unwrap_or(row);
-        }
-        for field in datapath.rom.layout().fields() {
-            let values = &mut self.words.fields[field.name as usize];
-            for (value, row) in values.iter_mut().zip(rows) {
-                *value = row.get(field.name);
-            }
-        }
-        None
-    }
 }
 
 impl Logic {
-    /// Evaluates every request.
-    pub fn evaluate<const N: usize>(&self, datapath: &Datapath, requests: &mut Requests<N>) {
-        let two = datapath.has_two_segments();
-        let one_word = requests.fetch(datapath);
-        let Requests { xs, words, results, .. } = requests;
-        match one_word {
-            Some(word) => self.answer_all(datapath.narrow, two, word, xs, results),
-            None => self.answer_all(datapath.narrow, two, &*words, xs, results),
-        }
-    }
-
-    fn answer_all<F: Fetched, const N: usize>(
+    /// Evaluates `W` requests from `start` on, or the last `W` of all where there are not so many.
+    /// Returns where they end.
+    #[inline]
+    pub fn evaluate<const N: usize, const W: usize>(
         &self,
-        narrow: bool,
-        two: bool,
-        words: F,
-        xs: &[i64; N],
-        results: &mut Results<N>,
-    ) {
-        let lines = &self.lines;
-        match (self.plain, narrow, two) {
-            (Some((Rounding::NearestUp, true)), _, false) => centred(lines, &words, xs, results),
-            (Some((Rounding::NearestUp, true)), _, true) => {
-                two_segments(lines, &words, xs, results);
+        datapath: &Datapath,
+        requests: &mut Requests<N, W>,
+        start: usize,
+    ) -> usize {
+        let start = start.min(N - W);
+        let Requests { addresses, xs, intensities, status, regions, words } = requests;
+        if let (Some(addresses), Some(xs), Some(intensities), Some(status), Some(regions)) = (
+            addresses[start..].first_chunk::<W>(),
+            xs[start..].first_chunk::<W>(),
+            intensities[start..].first_chunk_mut::<W>(),
+            status[start..].first_chunk_mut::<W>(),
+            regions[start..].first_chunk_mut::<W>(),
+        ) {
+            let results = Results { intensities, status, regions };
+            match words.fetch(datapath, addresses) {
+                Some(word) => self.answer_all(datapath, word, xs, results),
+                None => self.answer_all(datapath, words, xs, results),
             }
-            (Some((Rounding::NearestUp, false)), _, false) => power(lines, &words, xs, results),
-            (_, true, _) => lines.answer::<i64, Anything, F, true, N>(&words, xs, results),
-            (_, false, _) => lines.answer::<i128, Anything, F, true, N>(&words, xs, results),
         }
+        start + W
+    }
+
+    #[inline(always)]
+    fn answer_all<F: Fetched, const W: usize>(
+        &self,
+        datapath: &Datapath,
+        words: &F,
+        xs: &[i64; W],
+        results: Results<'_, W>,
+    ) {
+        let Results { intensities, status, regions } = results;
+        let answer = match (self.plain, datapath.narrow, datapath.has_two_segments()) {
+            (Some((Rounding::NearestUp, true)), _, false) => {
+                answer::<i64, Plain<true, true>, F, false, W>
+            }
+            (Some((Rounding::NearestUp, true)), _, true) => {
+                answer::<i64, Plain<true, true>, F, true, W>
+            }
+            (Some((Rounding::NearestUp, false)), _, _) => {
+                answer::<i64, Plain<true, false>, F, true, W>
+            }
+            (_, true, _) => answer::<i64, Anything, F, true, W>,
+            (_, false, _) => answer::<i128, Anything, F, true, W>,
+        };
+        answer(&self.lines, words, xs, intensities, status, regions);
     }
 }
 
+/// `TWO`: there may be a second segment.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn centred<F: Fetched, const N: usize>(
+fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool, const W: usize>(
     lines: &Lines,
     words: &F,
-    xs: &[i64; N],
-    results: &mut Results<N>,
+    xs: &[i64; W],
+    intensities: &mut [i64; W],
+    status: &mut [i64; W],
+    regions: &mut [i64; W],
 ) {
-    lines.answer::<i64, Plain<true, true>, F, false, N>(words, xs, results);
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn two_segments<F: Fetched, const N: usize>(
-    lines: &Lines,
-    words: &F,
-    xs: &[i64; N],
-    results: &mut Results<N>,
-) {
-    lines.answer::<i64, Plain<true, true>, F, true, N>(words, xs, results);
-}
-
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn power<F: Fetched, const N: usize>(
-    lines: &Lines,
-    words: &F,
-    xs: &[i64; N],
-    results: &mut Results<N>,
-) {
-    lines.answer::<i64, Plain<true, false>, F, false, N>(words, xs, results);
+    lines.polynomials::<L, K, F, TWO, W>(words, xs, intensities, status, regions);
+    if lines.divider.is_some() && regions.contains(&(Region::Tail as i64)) {
+        lines.tails::<L, K, F, W>(words, xs, intensities, regions);
+    }
 }
 
 impl Lines {
-    /// `TWO`: there may be a second segment.
-    #[inline(always)]
-    fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool, const N: usize>(
-        &self,
-        words: &F,
-        xs: &[i64; N],
-        results: &mut Results<N>,
-    ) {
-        self.polynomials::<L, K, F, TWO, N>(words, xs, results);
-        if results.regions.contains(&(Region::Tail as i64)) {
-            self.tails::<L, K, F, N>(words, xs, results);
-        }
-    }
-
     /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
-    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool, const N: usize>(
+    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool, const W: usize>(
         &self,
         words: &F,
-        xs: &[i64; N],
-        results: &mut Results<N>,
+        xs: &[i64; W],
+        intensities: &mut [i64; W],
+        flags: &mut [i64; W],
+        regions: &mut [i64; W],
     ) {
         // Where there is no polynomial, all its operands are 0, and what is computed of them too.
         let stages = self.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
@@ -238,8 +249,6 @@ impl Lines {
             return;
         };
         let (input_one, one) = (L::from_bits(front_end.one), L::from_bits(output_one));
-        // Copied: a loop that writes must not have to read it again.
-        let words = *words;
         for (request, &given) in xs.iter().enumerate() {
             let field = |name| L::from_bits(words.get(name, request));
             let given = L::from_bits(given);
@@ -270,28 +279,29 @@ impl Lines {
                 .with(Status::ABOVE_ONE, given > input_one)
                 .with(Status::FACING_AWAY, given < L::ZERO)
                 .with(Status::CLAMPED, answers && answered != t3);
-            results.regions[request] = region as i64;
-            results.status[request] = status.bits().into();
-            results.intensities[request] = if answers { answered.to_bits() } else { 0 };
+            regions[request] = region as i64;
+            flags[request] = status.bits().into();
+            intensities[request] = if answers { answered.to_bits() } else { 0 };
         }
     }
 
     #[inline(always)]
-    fn tails<L: Lane, K: Known, F: Fetched, const N: usize>(
+    fn tails<L: Lane, K: Known, F: Fetched, const W: usize>(
         &self,
         words: &F,
-        xs: &[i64; N],
-        results: &mut Results<N>,
+        xs: &[i64; W],
+        intensities: &mut [i64; W],
+        regions: &[i64; W],
     ) {
         let Self { front_end, divider: Some(divider), output_one, .. } = K::lines(*self) else {
             return;
         };
-        let mut divisors = [L::ONE; N];
-        let mut remainders = [L::ZERO; N];
-        let mut digits = [L::ZERO; N];
-        for request in 0..N {
+        let mut divisors = [L::ONE; W];
+        let mut remainders = [L::ZERO; W];
+        let mut digits = [L::ZERO; W];
+        for request in 0..W {
             let x = front_end.clamp_input(L::from_bits(xs[request]));
-            let answers = results.regions[request] == Region::Tail as i64;
+            let answers = regions[request] == Region::Tail as i64;
             let x = front_end.tail_x(x, if answers { Region::Tail } else { Region::Zero });
             let [a, b] = [FieldName::TailA, FieldName::TailB]
                 .map(|name| L::from_bits(words.get(name, request)));
@@ -308,13 +318,13 @@ impl Lines {
             }
         }
         let one = L::from_bits(output_one);
-        for request in 0..N {
+        for request in 0..W {
             let (divisor, remainder) = (divisors[request], remainders[request]);
             let division = Division { divisor, remainder, digits: digits[request] };
             let quotient = divider.finish(division, one).to_bits();
-            let answers = results.regions[request] == Region::Tail as i64;
-            let other = results.intensities[request];
-            results.intensities[request] = if answers { quotient } else { other };
+            let answers = regions[request] == Region::Tail as i64;
+            let other = intensities[request];
+            intensities[request] = if answers { quotient } else { other };
         }
     }
 }
