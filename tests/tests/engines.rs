@@ -69,7 +69,7 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
         let mut written = Written { datapath, ranks: vec![Rank::default(); datapath.rank_count()] };
         let requests: Vec<_> = (0..40).map(|_| request(&mut source, &design)).collect();
         let (mut request_in, mut ready_in, mut looks_in) = (1, 1, 1);
-        for cycle in 0..400 {
+        for cycle in 0..1000 {
             if source.once_in(30) {
                 (request_in, ready_in) = (source.integer(1, 6), source.integer(1, 6));
                 // Registers are computed when somebody looks; also after many cycles without.
