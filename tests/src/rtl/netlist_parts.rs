@@ -35,7 +35,7 @@ fn flat(datapath: &Datapath) -> Vec<Part> {
     let formats = datapath.formats();
     let polynomial = formats.polynomial.as_ref();
     let clamps_x = formats.input.max_bits() > datapath.front_end().greatest;
-    let clamps_t3 = polynomial.is_some_and(|f| f.t3.max_bits() > datapath.output_one());
+    let clamps_t3 = datapath.t3_exceeds_one();
     let digits = datapath.divider().map_or(0, |divider| u64::from(divider.digit_count));
     let shift = matches!(datapath.front_end().variable, Some(Variable::U { .. }))
         && constant(datapath, FieldName::Shift).is_none();
