@@ -24,6 +24,7 @@ mod simulate;
 mod specialise;
 mod stability;
 mod stability_tables;
+mod synthesis;
 mod table;
 mod vectors;
 

@@ -13,6 +13,7 @@ use vectors::{Bundle, OutputSet, Strategy, rtl};
 use super::configuration::{MaybeConfiguration, quoted};
 use super::report::Bar;
 use super::scene::load;
+use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
 use super::{Out, Outcome};
 use crate::render::samples;
@@ -56,8 +57,12 @@ pub(super) struct Args {
     /// Seed of the random ones.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Also synthesise both for an ECP5 with Yosys, and count; f_max is measured by scripts/synth.py --config. The
+    /// directory gets source_rtl as well.
+    #[arg(long, requires = "out")]
+    synth: bool,
     /// Check this certificate instead.
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "preset", "config", "allow_codes"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "preset", "config", "allow_codes", "synth"])]
     check: Option<PathBuf>,
     /// How to print what was left out.
     #[arg(long, value_enum, default_value_t)]
@@ -87,9 +92,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let Some(source) = args.configuration.design()? else {
         bail!("say --preset NAME or --config FILE");
     };
-    let made = Made::new(args, &scene, &source)?;
+    let mut made = Made::new(args, &scene, &source)?;
     if let Some(directory) = &args.out {
-        made.write(args, directory)?;
+        made.write(args, &source, directory)?;
     }
     match args.format {
         Format::Table => made.print(args, &scene, out)?,
@@ -149,13 +154,13 @@ impl Made {
         table
     }
 
-    fn write(&self, args: &Args, directory: &Path) -> anyhow::Result<()> {
-        let command = args.command();
-        let bundle =
-            Bundle::new(&self.specialised, Strategy::Mixed, args.count, args.seed, &command)?;
-        let mut hardware = OutputSet::create(directory.join("rtl"))?;
-        rtl::stage(&bundle, TOP, &command, &mut hardware)?;
+    fn write(&mut self, args: &Args, source: &Design, directory: &Path) -> anyhow::Result<()> {
         let mut set = OutputSet::create(directory)?;
+        hardware(&self.specialised, args, &directory.join("rtl"))?;
+        if args.synth {
+            hardware(source, args, &directory.join("source_rtl"))?;
+            self.synthesise(directory)?;
+        }
         set.write("configuration.json", self.specialised.config().to_json())?;
         for (name, format) in [("left_out.csv", Format::Csv), ("left_out.json", Format::Json)] {
             let mut text = Vec::new();
@@ -164,8 +169,18 @@ impl Made {
         }
         // It vouches for the rest.
         set.write("certificate.json", self.certificate.to_json())?;
-        hardware.commit()?;
         set.commit()?;
+        Ok(())
+    }
+
+    /// What Yosys counts joins what was left out.
+    fn synthesise(&mut self, directory: &Path) -> anyhow::Result<()> {
+        let before = synthesis::counts(&directory.join("source_rtl"))?;
+        let after = synthesis::counts(&directory.join("rtl"))?;
+        for (name, (before, after)) in synthesis::NAMES.iter().zip(before.into_iter().zip(after)) {
+            let why = "Yosys, synth_ecp5, without pins".to_owned();
+            self.left_out.push(LeftOut { part: (*name).to_owned(), before, after, why });
+        }
         Ok(())
     }
 
@@ -221,6 +236,16 @@ impl Made {
         }
         table
     }
+}
+
+/// The RTL of a design with its testbench and vectors.
+fn hardware(design: &Design, args: &Args, directory: &Path) -> anyhow::Result<()> {
+    let command = args.command();
+    let bundle = Bundle::new(design, Strategy::Mixed, args.count, args.seed, &command)?;
+    let mut set = OutputSet::create(directory)?;
+    rtl::stage(&bundle, TOP, &command, &mut set)?;
+    set.commit()?;
+    Ok(())
 }
 
 fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {

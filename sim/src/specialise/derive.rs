@@ -148,14 +148,13 @@ fn tightened(design: &Design, zeros: bool) -> StatedWidths {
     stated(&formats)
 }
 
-/// The coefficients by their places in the list of stated registers.
-const COEFFICIENTS: [(usize, FieldName); 6] = [
+/// The coefficients by their places in the list of stated registers. A and B of the tail meet the quotient at a place
+/// of the point that both share with the divisor, and keep it.
+const COEFFICIENTS: [(usize, FieldName); 4] = [
     (1, FieldName::C3),
     (2, FieldName::C2),
     (3, FieldName::C1),
     (4, FieldName::C0),
-    (7, FieldName::TailA),
-    (8, FieldName::TailB),
 ];
 
 /// The same numbers with fewer fraction bits. The product is as exact as before, so that the line's one rounding
