@@ -298,7 +298,9 @@ impl Datapath {
             }
         }
         let computed = rank <= 1 || rank == last;
-        list.add("status", QFormat::field(self.status_width()), computed, |s| s.status.bits().into());
+        list.add("status", QFormat::field(self.status_width()), computed, |s| {
+            s.status.bits().into()
+        });
         list.registers
     }
 

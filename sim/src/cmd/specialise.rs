@@ -19,8 +19,8 @@ use super::{Out, Outcome};
 use crate::render::samples;
 use crate::scene::Scene;
 use crate::specialise::{
-    Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out, pixels_outside,
-    reduce, rows,
+    Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out,
+    pixels_outside, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -73,7 +73,8 @@ impl Args {
     /// What made the files, and not where they went.
     fn command(&self) -> String {
         let scene = self.scene.as_ref().and_then(|path| path.file_name()).unwrap_or_default();
-        let codes = self.allow_codes.map_or_else(String::new, |codes| format!(" --allow-codes {codes}"));
+        let codes =
+            self.allow_codes.map_or_else(String::new, |codes| format!(" --allow-codes {codes}"));
         let Self { count, seed, .. } = self;
         format!(
             "blysk specialise {} {}{codes} --count {count} --seed {seed}",
@@ -197,7 +198,10 @@ impl Made {
             Proved::Codes { allowed, .. } => format!("within {allowed} display codes"),
         };
         let said = &self.certificate.statement;
-        write_folded(out, &format!("proved {proved} over {} points: {said}", self.certificate.points()))?;
+        write_folded(
+            out,
+            &format!("proved {proved} over {} points: {said}", self.certificate.points()),
+        )?;
         write_folded(out, self.guard())?;
         if let Some(directory) = &args.out {
             let said = "configuration.json, certificate.json, left_out.csv, left_out.json, rtl";
@@ -219,8 +223,16 @@ impl Made {
     /// What the scene asks.
     fn asked(&self) -> Rows {
         let ulp = self.specialised.config().input.ulp();
-        let mut table =
-            Rows::new(&["n", "least x", "greatest x", "cut", "below it", "address", "was", "bound"]);
+        let mut table = Rows::new(&[
+            "n",
+            "least x",
+            "greatest x",
+            "cut",
+            "below it",
+            "address",
+            "was",
+            "bound",
+        ]);
         for (index, (row, demand)) in self.rows.iter().zip(&self.demands).enumerate() {
             let below = if row.least >= row.cut { "nothing" } else { "asked" };
             table.push(vec![

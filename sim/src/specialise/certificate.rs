@@ -233,7 +233,9 @@ impl<'a> Pair<'a> {
         let designs = [source, specialised];
         let place = |design: &Design| {
             let place = design.rom().exponents().position(row.demand.exponent);
-            place.map(|place| place as u32).ok_or_else(|| format!("{} has no word", design.config().name))
+            place
+                .map(|place| place as u32)
+                .ok_or_else(|| format!("{} has no word", design.config().name))
         };
         let addresses = [place(source)?, place(specialised)?];
         if source.config().input != specialised.config().input {
@@ -390,7 +392,8 @@ impl Certificate {
             Proved::Codes { allowed, .. } => Some(allowed),
         };
         let found = certify(&source, &specialised, &rows, self.display, allowed, progress)?;
-        let again = Self::new(&self.scene, &self.command, self.display, found, (&source, &specialised));
+        let again =
+            Self::new(&self.scene, &self.command, self.display, found, (&source, &specialised));
         let differs = |field: &str, said: &dyn std::fmt::Debug, found: &dyn std::fmt::Debug| {
             let (said, found) = (format!("{said:?}"), format!("{found:?}"));
             Err(Refused::Found { field: field.to_owned(), said, found })
@@ -441,13 +444,15 @@ impl Certificate {
             })
             .collect();
         let whole = |problem: String| Refused::Part { index: 0, n: f64::NAN, problem };
-        let rows = super::derive::rows(source, &demands).map_err(|error| whole(error.to_string()))?;
+        let rows =
+            super::derive::rows(source, &demands).map_err(|error| whole(error.to_string()))?;
         let exponents = specialised.rom().exponents();
         if !exponents.iter().eq(rows.iter().map(|row| row.demand.exponent)) {
             return Err(whole(format!("the specialised ROM has n = {exponents}, and other parts")));
         }
         let domain = &specialised.config().domain;
-        let wrong = domain.iter().zip(&rows).position(|(stated, row)| stated.least != row.demand.least);
+        let wrong =
+            domain.iter().zip(&rows).position(|(stated, row)| stated.least != row.demand.least);
         match wrong {
             Some(index) => Err(Refused::Part {
                 index,

@@ -45,9 +45,8 @@ pub fn demands(scene: &Scene) -> Vec<Demand> {
 }
 
 fn demand(scene: &Scene, exponent: f64) -> Option<Demand> {
-    let of_it = |surface: &&Surface| {
-        scene.materials[usize::from(surface.material)].exponent == exponent
-    };
+    let of_it =
+        |surface: &&Surface| scene.materials[usize::from(surface.material)].exponent == exponent;
     let surfaces: Vec<&Surface> = scene.surfaces.iter().filter(of_it).collect();
     if surfaces.iter().any(|surface| matches!(surface.shape, Shape::Triangle(_))) {
         return Some(Demand { exponent, least: 0.0, greatest: 1.0, mesh: true });

@@ -150,12 +150,8 @@ fn tightened(design: &Design, zeros: bool) -> StatedWidths {
 
 /// The coefficients by their places in the list of stated registers. A and B of the tail meet the quotient at a place
 /// of the point that both share with the divisor, and keep it.
-const COEFFICIENTS: [(usize, FieldName); 4] = [
-    (1, FieldName::C3),
-    (2, FieldName::C2),
-    (3, FieldName::C1),
-    (4, FieldName::C0),
-];
+const COEFFICIENTS: [(usize, FieldName); 4] =
+    [(1, FieldName::C3), (2, FieldName::C2), (3, FieldName::C1), (4, FieldName::C0)];
 
 /// The same numbers with fewer fraction bits. The product is as exact as before, so that the line's one rounding
 /// gives the same.

@@ -36,9 +36,21 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<Left
     let address = |design: &Design| u64::from(design.rom().address_width());
     add("address bits", &address, "for every word, and one more for \"no word\"".to_owned());
     let hardware = |design: &Design| Hardware::of(design, &of_stated(&design.widths()));
-    add("ROM bits", &|design| hardware(design).rom_bits, "words times the bits of a word".to_owned());
-    add("divider ranks", &|design| divider_ranks(design.datapath()), tail_reason(source, specialised, rows));
-    add("compare t3 with 1", &|design| compares(design.datapath()), clamp_reason(source, specialised));
+    add(
+        "ROM bits",
+        &|design| hardware(design).rom_bits,
+        "words times the bits of a word".to_owned(),
+    );
+    add(
+        "divider ranks",
+        &|design| divider_ranks(design.datapath()),
+        tail_reason(source, specialised, rows),
+    );
+    add(
+        "compare t3 with 1",
+        &|design| compares(design.datapath()),
+        clamp_reason(source, specialised),
+    );
     add("multipliers", &|design| multipliers(design), multiplier_reason(source, specialised));
     let bits = |design: &Design| hardware(design).multiplier_bits;
     add("multiplier bits", &bits, "both operands' widths, multiplied, summed".to_owned());
@@ -119,7 +131,11 @@ fn tail_reason(source: &Design, specialised: &Design, rows: &[Row]) -> String {
         format!("n = {} asks x from {least:.5}, its cut is {cut:.5}", row.demand.exponent)
     });
     let said: Vec<String> = said.take(2).collect();
-    if said.is_empty() { "it alone answers".to_owned() } else { format!("stays: {}", said.join("; ")) }
+    if said.is_empty() {
+        "it alone answers".to_owned()
+    } else {
+        format!("stays: {}", said.join("; "))
+    }
 }
 
 fn clamp_reason(source: &Design, specialised: &Design) -> String {
@@ -146,10 +162,17 @@ fn multiplier_reason(source: &Design, specialised: &Design) -> String {
     if after.tail.as_ref().is_some_and(|f| f.b.width() == 1) {
         gone.push("B·x, as B has one bit");
     }
-    format!("without {}", if gone.is_empty() { "those by constants".to_owned() } else { gone.join(", ") })
+    format!(
+        "without {}",
+        if gone.is_empty() { "those by constants".to_owned() } else { gone.join(", ") }
+    )
 }
 
 fn output_reason(source: &Design, specialised: &Design) -> String {
     let [before, after] = [source, specialised].map(|design| design.config().output);
-    if before == after { "stay: the same bits go out".to_owned() } else { format!("{before} to {after}, as codes allow") }
+    if before == after {
+        "stay: the same bits go out".to_owned()
+    } else {
+        format!("{before} to {after}, as codes allow")
+    }
 }

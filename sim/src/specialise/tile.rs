@@ -28,7 +28,12 @@ const ANYTHING: Interval = Interval::UNIT;
 
 /// x of all places of a tile that show the surface by this light; none where no place does. A mesh is not looked at:
 /// its triangles present anything from 0 to 1.
-pub(super) fn presented(rays: &Rays, shape: &Shape, angle: Angle, light: &Light) -> Option<Interval> {
+pub(super) fn presented(
+    rays: &Rays,
+    shape: &Shape,
+    angle: Angle,
+    light: &Light,
+) -> Option<Interval> {
     let met = match shape {
         Shape::Sphere { centre, radius } => sphere(rays, *centre, *radius)?,
         Shape::Plane { point, normal } => match plane(rays, *point, *normal) {

@@ -92,9 +92,8 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
     let bench = bench!();
     specialised(&bench, "close_up", &["--preset", "paper", "--out", "small"]);
     let path = scene("close_up");
-    let check = |file: &str| {
-        bench.run_list(&["specialise", path.to_str().unwrap(), "--check", file])
-    };
+    let check =
+        |file: &str| bench.run_list(&["specialise", path.to_str().unwrap(), "--check", file]);
     assert_eq!(check("small/certificate.json").status, 0);
     let text = bench.text("small/certificate.json");
     for (wrong, from, to) in [
@@ -111,8 +110,12 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
     }
     // Another scene is not the one it was made for.
     let other = scene("one_material");
-    let run =
-        bench.run_list(&["specialise", other.to_str().unwrap(), "--check", "small/certificate.json"]);
+    let run = bench.run_list(&[
+        "specialise",
+        other.to_str().unwrap(),
+        "--check",
+        "small/certificate.json",
+    ]);
     assert!(run.status == 1 && run.stdout.contains("scene: "), "{run:#?}");
 }
 
@@ -142,7 +145,10 @@ fn what_cannot_be_specialised_is_refused() {
     };
     for (rest, said) in [
         (r#""domain": [{"n": 2, "least": 0.9}]"#, "one n and least for each exponent"),
-        (r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 1.5}]"#, "use a number from 0 to 1"),
+        (
+            r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 1.5}]"#,
+            "use a number from 0 to 1",
+        ),
         (r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 0.1}]"#, "below its cut"),
     ] {
         domain(rest);

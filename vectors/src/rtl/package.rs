@@ -5,10 +5,10 @@
 
 use askama::Template;
 use hw_model::config::Form;
+use hw_model::datapath::Datapath;
 use hw_model::datapath::formats::{PolynomialFormats, TailFormats};
 use hw_model::datapath::front_end::{Region, Variable};
 use hw_model::datapath::stage::MultiplyAdd;
-use hw_model::datapath::Datapath;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
