@@ -14,7 +14,7 @@
 //! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
 //!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 
-use hw_model::datapath::{Datapath, Flight, Logic, Signals, Status};
+use hw_model::datapath::{Datapath, Flight, Logic, Requests, Signals, Status};
 
 /// What drives the pipeline during one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -140,6 +140,20 @@ impl Remains {
     }
 }
 
+/// What the rising edge brings.
+#[derive(Debug, Clone, Copy, Default)]
+struct Edge {
+    /// The valid flags behind it, were there no reset.
+    valid: u128,
+    reset: bool,
+    /// The first rank takes a request in.
+    takes: bool,
+    /// The last one gives its result away.
+    leaves: bool,
+    address: u32,
+    x: i64,
+}
+
 /// A request and its result.
 #[derive(Debug, Clone, Copy, Default)]
 struct Request {
@@ -149,10 +163,14 @@ struct Request {
     status: Status,
 }
 
+/// Results that are computed together: as many as a vector register has lanes.
+const BATCH: usize = 8;
+
 /// The clocked pipeline of one configuration.
 ///
-/// A cycle moves flags and counters only, computes the result of the request that enters, and allocates nothing. What
-/// other registers hold is computed when somebody looks ([`Pipeline::ranks`]).
+/// A cycle moves flags and counters only, and allocates nothing. Results are computed when the first of them comes to
+/// the output, side by side for all requests that have entered by then. What other registers hold is computed when
+/// somebody looks ([`Pipeline::ranks`]).
 #[derive(Debug, Clone)]
 pub struct Pipeline<'a> {
     datapath: &'a Datapath,
@@ -162,15 +180,15 @@ pub struct Pipeline<'a> {
     all: u128,
     last: u128,
     places_q: Places,
-    valid_d: u128,
-    reset_d: bool,
-    takes_d: bool,
-    leaves_d: bool,
-    request_d: (u32, i64),
+    edge_d: Edge,
     /// Requests that entered.
     entered: u64,
     /// The last of them, each in the place of its number; more than there are ranks, and a power of two.
     requests: Vec<Request>,
+    /// Requests up to this one have a result.
+    answered: u64,
+    /// Room to compute results in.
+    batch: Box<Requests<BATCH>>,
     /// The same with all their values, of requests up to `looked_at`.
     flights: Vec<Flight>,
     looked_at: u64,
@@ -192,13 +210,11 @@ impl<'a> Pipeline<'a> {
             all: (1 << ranks) - 1,
             last: 1 << (ranks - 1),
             places_q: Places { valid: 0, left: 0, before: 0 },
-            valid_d: 0,
-            reset_d: false,
-            takes_d: false,
-            leaves_d: false,
-            request_d: (0, 0),
+            edge_d: Edge::default(),
             entered: 0,
             requests: vec![Request::default(); places],
+            answered: 0,
+            batch: datapath.requests(),
             flights: vec![datapath.flight(); places],
             looked_at: 0,
             remains: Remains { loaded: 0, flights: vec![datapath.flight(); ranks] },
@@ -234,42 +250,88 @@ impl<'a> Pipeline<'a> {
     /// One clock cycle: what an RTL simulator shows at the rising edge, and then the edge.
     #[inline(always)]
     pub fn tick(&mut self, inputs: &Inputs) -> Outputs {
-        let outputs = self.combinational(inputs);
-        self.clock();
+        let (outputs, edge) = self.cycle(inputs);
+        self.rise(edge);
         outputs
     }
 
     /// The outputs of a cycle with these inputs, and what follows for every rank.
-    ///
-    /// Rule 2, written out: a rank advances when the output is taken or any rank from it on is empty, that is,
-    /// when it is not above the last empty one.
     #[inline(always)]
     pub fn combinational(&mut self, inputs: &Inputs) -> Outputs {
+        let (outputs, edge) = self.cycle(inputs);
+        self.edge_d = edge;
+        outputs
+    }
+
+    /// The rising edge.
+    #[inline(always)]
+    pub fn clock(&mut self) {
+        self.rise(self.edge_d);
+    }
+
+    /// The combinational phase. Rule 2, written out: a rank advances when the output is taken or any rank from it on is empty, that is,
+    /// when it is not above the last empty one.
+    #[inline(always)]
+    fn cycle(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
         let valid = self.places_q.valid;
         let request = inputs.in_valid && !inputs.reset;
         let offered = (valid << 1 | u128::from(request)) & self.all;
-        let advances = if inputs.out_ready {
-            self.valid_d = offered;
-            true
+        let (valid_d, advances) = if inputs.out_ready {
+            (offered, true)
         } else {
             let empty = self.all & !valid;
             let advance = u128::MAX.checked_shr(empty.leading_zeros()).unwrap_or(0);
-            self.valid_d = advance & offered | valid & !advance;
-            empty != 0
+            (advance & offered | valid & !advance, empty != 0)
         };
         let out_valid = valid & self.last != 0;
-        self.takes_d = request && advances;
-        self.leaves_d = out_valid && inputs.out_ready;
-        self.reset_d = inputs.reset;
-        self.request_d = (inputs.address, inputs.x);
         let (intensity, status) = if out_valid {
+            if self.answered <= self.places_q.left {
+                self.answer();
+            }
             // The request that leaves next.
             let request = &self.requests[self.place(self.places_q.left)];
             (request.intensity, request.status)
         } else {
             self.last_result()
         };
-        Outputs { in_ready: advances && !inputs.reset, out_valid, intensity, status }
+        let in_ready = advances && !inputs.reset;
+        let Inputs { reset, address, x, .. } = *inputs;
+        let (takes, leaves) = (request && advances, out_valid && inputs.out_ready);
+        let edge = Edge { valid: valid_d, reset, takes, leaves, address, x };
+        (Outputs { in_ready, out_valid, intensity, status }, edge)
+    }
+
+    #[inline(always)]
+    fn rise(&mut self, edge: Edge) {
+        if edge.takes {
+            let Edge { address, x, .. } = edge;
+            let place = self.place(self.entered);
+            self.requests[place] = Request { address, x, ..Request::default() };
+            let index = (self.entered - self.answered) as usize % BATCH;
+            (self.batch.addresses[index], self.batch.xs[index]) = (address, x);
+            self.entered += 1;
+            if index + 1 == BATCH {
+                self.answer();
+            }
+        }
+        self.places_q.valid = edge.valid;
+        self.places_q.left += u64::from(edge.leaves);
+        if edge.reset {
+            self.reset();
+        }
+    }
+
+    /// Computes the results of all requests that have none; they stand in the batch, at most as many as it has
+    /// places. What else stands there was answered before, and is nobody's.
+    #[inline(never)]
+    fn answer(&mut self) {
+        self.logic.evaluate(self.datapath, &mut self.batch);
+        for (index, number) in (self.answered..self.entered).enumerate() {
+            let place = self.place(number);
+            self.requests[place].intensity = self.batch.intensities()[index];
+            self.requests[place].status = self.batch.status(index);
+        }
+        self.answered = self.entered;
     }
 
     /// What the last rank shows while it is empty: what it held before.
@@ -284,23 +346,6 @@ impl<'a> Pipeline<'a> {
             .map_or_else(Default::default, |flight| (flight.intensity(), flight.status()))
     }
 
-    /// The rising edge.
-    #[inline(always)]
-    pub fn clock(&mut self) {
-        if self.takes_d {
-            let (address, x) = self.request_d;
-            let (intensity, status) = self.logic.result(self.datapath, address, x);
-            let place = self.place(self.entered);
-            self.requests[place] = Request { address, x, intensity, status };
-            self.entered += 1;
-        }
-        self.places_q.valid = self.valid_d;
-        self.places_q.left += u64::from(self.leaves_d);
-        if self.reset_d {
-            self.reset();
-        }
-    }
-
     /// The flags become 0, and all requests are lost; what ranks show of them stays.
     #[cold]
     fn reset(&mut self) {
@@ -313,6 +358,7 @@ impl<'a> Pipeline<'a> {
             }
         }
         self.places_q = Places { valid: 0, left: self.entered, before: self.entered };
+        self.answered = self.entered;
     }
 
     #[inline(always)]

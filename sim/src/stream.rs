@@ -5,12 +5,12 @@
 //! of any cycle are then those of the request that stands there: [`Stream::rank`] shows what
 //! [`Pipeline`](crate::pipeline::Pipeline) shows, bubbles included.
 
-use hw_model::datapath::{Datapath, Flight, Logic, REQUESTS, Requests, Status};
+use hw_model::datapath::{Datapath, Flight, Logic, Requests, Status};
 
 use crate::pipeline::{Outputs, Rank};
 
 /// Cycles that are computed together; more than there can be ranks, since a division has 63 quotient bits at most.
-pub const CYCLES: usize = REQUESTS;
+pub const CYCLES: usize = 128;
 
 /// A stream under way.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ pub struct Stream<'a> {
 /// The requests of some cycles: a request for each, though a bubble's is nobody's.
 #[derive(Debug, Clone)]
 struct Cycles {
-    requests: Box<Requests>,
+    requests: Box<Requests<CYCLES>>,
     valid: [bool; CYCLES],
 }
 

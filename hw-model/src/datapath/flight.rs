@@ -120,15 +120,6 @@ impl Logic {
         flight.divisions = divisions;
     }
 
-    /// The intensity and its flags alone, as the last rank shows them.
-    #[inline]
-    #[must_use]
-    pub fn result(&self, datapath: &Datapath, address: u32, x: i64) -> (i64, Status) {
-        // What is computed for registers only falls away in here.
-        let flight = self.dispatch(datapath, address, x, |_, _| ());
-        (flight.intensity, flight.status[2])
-    }
-
     #[inline(always)]
     fn dispatch(
         &self,

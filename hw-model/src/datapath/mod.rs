@@ -33,5 +33,5 @@ pub use block::Block;
 pub use flight::{Flight, Logic};
 pub use keep::Damage;
 pub use ranks::{Datapath, register_name};
-pub use requests::{REQUESTS, Requests};
+pub use requests::Requests;
 pub use signals::{Register, Signals, Status};

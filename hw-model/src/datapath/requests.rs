@@ -20,38 +20,33 @@ use super::signals::Status;
 use super::stage::MultiplyAdd;
 use super::tail::Division;
 
-/// Requests side by side.
-pub const REQUESTS: usize = 128;
-
-type Values = [i64; REQUESTS];
-
-/// Requests and their results. Fill in addresses and x; [`Logic::evaluate`] does the rest.
+/// So many requests and their results. Fill in addresses and x; [`Logic::evaluate`] does the rest.
 #[derive(Debug, Clone)]
-pub struct Requests {
+pub struct Requests<const N: usize> {
     /// ROM addresses.
-    pub addresses: [u32; REQUESTS],
+    pub addresses: [u32; N],
     /// x, bits in the input format.
-    pub xs: Values,
+    pub xs: [i64; N],
     /// The words of the addresses, where they are not all the same.
-    words: Words,
-    results: Results,
+    words: Words<N>,
+    results: Results<N>,
 }
 
 #[derive(Debug, Clone)]
-struct Results {
-    intensities: Values,
+struct Results<const N: usize> {
+    intensities: [i64; N],
     /// Flags.
-    status: Values,
+    status: [i64; N],
     /// [`Region`]s.
-    regions: Values,
+    regions: [i64; N],
 }
 
 /// A list for each field of the ROM.
 #[derive(Debug, Clone)]
-struct Words {
-    fields: [Values; FieldName::ALL.len()],
+struct Words<const N: usize> {
+    fields: [[i64; N]; FieldName::ALL.len()],
     /// 1 where the address has a word.
-    known: Values,
+    known: [i64; N],
 }
 
 /// Where a loop over requests finds their words.
@@ -60,7 +55,7 @@ trait Fetched: Copy {
     fn known(&self, request: usize) -> bool;
 }
 
-impl Fetched for &Words {
+impl<const N: usize> Fetched for &Words<N> {
     #[inline(always)]
     fn get(&self, name: FieldName, request: usize) -> i64 {
         self.fields[name as usize][request]
@@ -89,25 +84,23 @@ impl Fetched for OneWord {
     }
 }
 
-const ZEROS: Values = [0; REQUESTS];
-
 impl Datapath {
     /// Room for requests.
     #[must_use]
-    pub fn requests(&self) -> Box<Requests> {
+    pub fn requests<const N: usize>(&self) -> Box<Requests<N>> {
         Box::new(Requests {
-            addresses: [0; REQUESTS],
-            xs: ZEROS,
-            words: Words { fields: [ZEROS; FieldName::ALL.len()], known: ZEROS },
-            results: Results { intensities: ZEROS, status: ZEROS, regions: ZEROS },
+            addresses: [0; N],
+            xs: [0; N],
+            words: Words { fields: [[0; N]; FieldName::ALL.len()], known: [0; N] },
+            results: Results { intensities: [0; N], status: [0; N], regions: [0; N] },
         })
     }
 }
 
-impl Requests {
+impl<const N: usize> Requests<N> {
     /// The intensities.
     #[must_use]
-    pub const fn intensities(&self) -> &[i64; REQUESTS] {
+    pub const fn intensities(&self) -> &[i64; N] {
         &self.results.intensities
     }
 
@@ -133,7 +126,7 @@ impl Requests {
             let row = *known.unwrap_or_else(|| datapath.row_at(0));
             return Some(OneWord { row, known: known.is_some() });
         }
-        let mut rows = [datapath.row_at(0); REQUESTS];
+        let mut rows = [datapath.row_at(0); N];
         for ((row, known), &address) in
             rows.iter_mut().zip(&mut self.words.known).zip(&self.addresses)
         {
@@ -153,7 +146,7 @@ impl Requests {
 
 impl Logic {
     /// Evaluates every request.
-    pub fn evaluate(&self, datapath: &Datapath, requests: &mut Requests) {
+    pub fn evaluate<const N: usize>(&self, datapath: &Datapath, requests: &mut Requests<N>) {
         let two = datapath.has_two_segments();
         let one_word = requests.fetch(datapath);
         let Requests { xs, words, results, .. } = requests;
@@ -163,13 +156,13 @@ impl Logic {
         }
     }
 
-    fn answer_all<F: Fetched>(
+    fn answer_all<F: Fetched, const N: usize>(
         &self,
         narrow: bool,
         two: bool,
         words: F,
-        xs: &Values,
-        results: &mut Results,
+        xs: &[i64; N],
+        results: &mut Results<N>,
     ) {
         let lines = &self.lines;
         match (self.plain, narrow, two) {
@@ -178,49 +171,64 @@ impl Logic {
                 two_segments(lines, &words, xs, results);
             }
             (Some((Rounding::NearestUp, false)), _, false) => power(lines, &words, xs, results),
-            (_, true, _) => lines.answer::<i64, Anything, F, true>(&words, xs, results),
-            (_, false, _) => lines.answer::<i128, Anything, F, true>(&words, xs, results),
+            (_, true, _) => lines.answer::<i64, Anything, F, true, N>(&words, xs, results),
+            (_, false, _) => lines.answer::<i128, Anything, F, true, N>(&words, xs, results),
         }
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn centred<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
-    lines.answer::<i64, Plain<true, true>, F, false>(words, xs, results);
+fn centred<F: Fetched, const N: usize>(
+    lines: &Lines,
+    words: &F,
+    xs: &[i64; N],
+    results: &mut Results<N>,
+) {
+    lines.answer::<i64, Plain<true, true>, F, false, N>(words, xs, results);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn two_segments<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
-    lines.answer::<i64, Plain<true, true>, F, true>(words, xs, results);
+fn two_segments<F: Fetched, const N: usize>(
+    lines: &Lines,
+    words: &F,
+    xs: &[i64; N],
+    results: &mut Results<N>,
+) {
+    lines.answer::<i64, Plain<true, true>, F, true, N>(words, xs, results);
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn power<F: Fetched>(lines: &Lines, words: &F, xs: &Values, results: &mut Results) {
-    lines.answer::<i64, Plain<true, false>, F, false>(words, xs, results);
+fn power<F: Fetched, const N: usize>(
+    lines: &Lines,
+    words: &F,
+    xs: &[i64; N],
+    results: &mut Results<N>,
+) {
+    lines.answer::<i64, Plain<true, false>, F, false, N>(words, xs, results);
 }
 
 impl Lines {
     /// `TWO`: there may be a second segment.
     #[inline(always)]
-    fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool>(
+    fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool, const N: usize>(
         &self,
         words: &F,
-        xs: &Values,
-        results: &mut Results,
+        xs: &[i64; N],
+        results: &mut Results<N>,
     ) {
-        self.polynomials::<L, K, F, TWO>(words, xs, results);
+        self.polynomials::<L, K, F, TWO, N>(words, xs, results);
         if results.regions.contains(&(Region::Tail as i64)) {
-            self.tails::<L, K, F>(words, xs, results);
+            self.tails::<L, K, F, N>(words, xs, results);
         }
     }
 
     /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
-    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool>(
+    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool, const N: usize>(
         &self,
         words: &F,
-        xs: &Values,
-        results: &mut Results,
+        xs: &[i64; N],
+        results: &mut Results<N>,
     ) {
         // Where there is no polynomial, all its operands are 0, and what is computed of them too.
         let stages = self.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
@@ -273,14 +281,19 @@ impl Lines {
     }
 
     #[inline(always)]
-    fn tails<L: Lane, K: Known, F: Fetched>(&self, words: &F, xs: &Values, results: &mut Results) {
+    fn tails<L: Lane, K: Known, F: Fetched, const N: usize>(
+        &self,
+        words: &F,
+        xs: &[i64; N],
+        results: &mut Results<N>,
+    ) {
         let Self { front_end, divider: Some(divider), output_one, .. } = K::lines(*self) else {
             return;
         };
-        let mut divisors = [L::ONE; REQUESTS];
-        let mut remainders = [L::ZERO; REQUESTS];
-        let mut digits = [L::ZERO; REQUESTS];
-        for request in 0..REQUESTS {
+        let mut divisors = [L::ONE; N];
+        let mut remainders = [L::ZERO; N];
+        let mut digits = [L::ZERO; N];
+        for request in 0..N {
             let x = front_end.clamp_input(L::from_bits(xs[request]));
             let answers = results.regions[request] == Region::Tail as i64;
             let x = front_end.tail_x(x, if answers { Region::Tail } else { Region::Zero });
@@ -299,7 +312,7 @@ impl Lines {
             }
         }
         let one = L::from_bits(output_one);
-        for request in 0..REQUESTS {
+        for request in 0..N {
             let (divisor, remainder) = (divisors[request], remainders[request]);
             let division = Division { divisor, remainder, digits: digits[request] };
             let quotient = divider.finish(division, one).to_bits();

@@ -1,8 +1,9 @@
-//! `blysk design`: the least hardware that keeps an error.
+//! `blysk design`: little hardware that keeps an error.
 
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::Args as ClapArgs;
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::exponents::Exponents;
@@ -18,14 +19,14 @@ use crate::analysis::sizing::{
     Breaks, Considered, Fewer, Hardware, Over, Request, Sized, Verdict, Witness, samples, size,
 };
 
-/// Search the least hardware that keeps an error: form, method, segments, widths and rounding.
+/// Search hardware that keeps an error with little: form, method, segments, widths and rounding.
 ///
 /// What can be built is held against x^n in real numbers, given widths that are proved to keep the error, and
 /// ranked by multiplier bits (the widths of both operands, multiplied, of every multiplier), then ROM bits, then
 /// latency, then register bits. The first few are narrowed bit by bit as far as the error allows, measured at
-/// every x of the range. Every register of the best gets two witnesses: an n and an x at which a fraction bit
-/// less, or an integer bit less, breaks the error or overflows. The configuration that --out writes states all
-/// widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
+/// every x of the range. What is printed is the least that was found, of which no register can lose a bit: every
+/// stated width gets two witnesses, an n and an x at which a fraction bit less, or an integer bit less, breaks the
+/// error or overflows. The configuration that --out writes states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
 /// print the witnesses.
 #[derive(ClapArgs)]
 #[command(
@@ -42,7 +43,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FORMAT")]
     input: QFormat,
     /// The greatest error allowed, as a fraction of 1.
-    #[arg(long, value_parser = bound)]
+    #[arg(long, allow_negative_numbers = true, value_parser = bound)]
     error: f64,
     /// Over which x: all of [0, 1], the epicentre (x^n >= 1/2), or where x^n is at least a number.
     #[arg(long, default_value = "all", value_name = "all|epicentre|LEVEL", value_parser = over)]
@@ -117,7 +118,25 @@ fn check(request: &Request) -> anyhow::Result<()> {
         output: request.output,
         ..hw_model::presets::ALL[0].config()?
     };
-    Ok(config.check()?)
+    config.check()?;
+    // Trials have a budget too, the greatest a configuration may state; bounds are up to some times the error.
+    const MOST_ULP: f64 = 2.5e5;
+    let allowed = request.error / request.output.ulp();
+    if allowed > MOST_ULP {
+        let coarser = (MOST_ULP / request.error).log2().floor();
+        bail!(
+            "--output: {} is {allowed:.3e} times finer than the error allows; use at most {coarser} fraction bits",
+            request.output
+        );
+    }
+    const MOST_SAMPLES: u64 = 1 << 34;
+    let samples = samples(request);
+    if samples > MOST_SAMPLES {
+        bail!(
+            "{samples} samples are more than {MOST_SAMPLES}; use a narrower --input or fewer --exponents"
+        );
+    }
+    Ok(())
 }
 
 fn parts(config: &Config) -> [String; 4] {

@@ -22,7 +22,7 @@ use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 ///
 /// Row by row, and segment by segment, the integers of the coefficients are judged by the pipeline's own
 /// arithmetic at every representable x of the range, against the correctly rounded x^n, until no neighbour
-/// is better. The configuration that --out writes has the steps from the rounded coefficients in
+/// within --reach is better. The configuration that --out writes has the steps from the rounded coefficients in
 /// `coefficient_steps`, and states its widths, so that the steps keep their meaning. The table shows the
 /// greatest error before and after, that of the method with real coefficients, and what is between them in
 /// output ulp. All 256 rows of preset precise take half a minute of one core.
@@ -44,7 +44,7 @@ pub(super) struct Args {
     #[arg(long, value_enum, default_value_t)]
     range: Over,
     /// No coefficient moves farther than this, in units of its last place; 0 measures and moves nothing.
-    #[arg(long, default_value_t = 32, value_name = "STEPS", value_parser = clap::value_parser!(i32).range(0..=256))]
+    #[arg(long, default_value_t = 32, allow_negative_numbers = true, value_name = "STEPS", value_parser = clap::value_parser!(i32).range(0..=256))]
     reach: i32,
     /// How to print.
     #[arg(long, value_enum, default_value_t)]
@@ -85,6 +85,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     rows(&refined.found, ulp).print(out, args.format, 6)?;
     if args.format == Format::Table {
         summary(&design, &refined, out)?;
+        at_the_reach(&refined, args.reach, out)?;
         if let Some(path) = &args.out {
             writeln!(out, "\nwritten to {}", path.display())?;
         }
@@ -125,6 +126,18 @@ fn steps(piece: &Found) -> String {
     let named = FieldName::COEFFICIENTS.into_iter().zip(piece.steps).rev();
     let moved = named.filter(|&(_, steps)| steps != 0);
     moved.map(|(name, steps)| format!("{name}{steps:+}")).collect::<Vec<_>>().join(" ")
+}
+
+/// Rows that might go on if they were let.
+fn at_the_reach(refined: &Refined, reach: i32, out: &mut Out) -> anyhow::Result<()> {
+    let stopped = |piece: &&Found| piece.steps.iter().any(|step| step.abs() == reach);
+    let count = refined.found.iter().filter(stopped).count();
+    if reach > 0 && count > 0 {
+        let text =
+            format!("{count} stopped at --reach {reach}: with a greater one there may be better");
+        write_folded(out, &text)?;
+    }
+    Ok(())
 }
 
 /// The worst of all, before and after, and what the budget had to become.

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
         if (sweep) {
             top.address_i = ADDRESS;
-            top.x_i = cycle & 0x7fffff;
+            top.x_i = 0x7fffff - ((cycle & 0x7ffff) << 3);
         } else {
             state ^= state << 13;
             state ^= state >> 7;

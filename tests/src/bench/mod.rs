@@ -10,7 +10,7 @@ pub mod verilator;
 /// Where the stimulus begins: xorshift64, the same in Rust and in C++.
 pub const SEED: u64 = 88_172_645_463_325_252;
 
-/// The address of a sweep: n = 4, of which most x are above the cut.
+/// The address of a sweep: n = 4.
 pub const ADDRESS: u32 = 3;
 
 /// What is requested in each cycle.
@@ -18,7 +18,7 @@ pub const ADDRESS: u32 = 3;
 pub enum Pattern {
     /// Address and x at random; 1 − x of all magnitudes, else nearly all would lie below the cut of their exponent.
     Random,
-    /// One address, and all x in turn.
+    /// One address, and every eighth x from 1 down to 1/2, pass after pass.
     Sweep,
 }
 
