@@ -24,6 +24,8 @@ const FORMAT: &str = "blysk specialisation";
 const VERSION: u32 = 1;
 /// x that are evaluated together.
 const PIECE: i64 = 1 << 14;
+/// x outside the domain that are evaluated side by side.
+const REQUESTS: usize = 128;
 
 /// How alike the answers are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -293,13 +295,21 @@ impl<'a> Pair<'a> {
     fn outside(&self, first: i64, last: i64) -> Found {
         let datapath = self.designs[1].datapath();
         let logic = datapath.logic();
+        let mut requests = datapath.requests::<REQUESTS>();
+        requests.addresses = [self.addresses[1]; REQUESTS];
         let mut found = Found::default();
-        for x in first..=last {
-            let (intensity, status) = logic.result(datapath, self.addresses[1], x);
-            if intensity == 0 && status.contains(Status::OUT_OF_DOMAIN) {
-                found.refused += 1;
-            } else {
-                found.answered = found.answered.or(Some(x));
+        for begin in (first..=last).step_by(REQUESTS) {
+            let count = REQUESTS.min((last - begin + 1) as usize);
+            for (x, place) in (begin..).zip(&mut requests.xs) {
+                *place = x;
+            }
+            logic.evaluate(datapath, &mut requests);
+            for (index, &intensity) in requests.intensities().iter().enumerate().take(count) {
+                if intensity == 0 && requests.status(index).contains(Status::OUT_OF_DOMAIN) {
+                    found.refused += 1;
+                } else {
+                    found.answered = found.answered.or(Some(begin + index as i64));
+                }
             }
         }
         debug_assert!(self.guarded);

@@ -62,7 +62,6 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<Left
     add("x bits", &input, "stay: the same x comes in".to_owned());
     let output = |design: &Design| u64::from(design.config().output.width());
     add("intensity bits", &output, output_reason(source, specialised));
-    drop(add);
     list.extend(formats(source, specialised));
     list
 }

@@ -45,12 +45,13 @@ fn the_close_up_keeps_one_row_and_no_tail() {
     // Every x, by the naive model of the small one and the data path of the whole one.
     let small = design(&bench, "small/configuration.json");
     let whole = Design::new(presets::find("paper").unwrap().config().unwrap()).unwrap();
-    let (naive, logic) = (Naive::new(&small), small.datapath().logic());
+    let naive = Naive::new(&small);
     let one = whole.config().input.one();
     let (mut inside, mut outside) = (0, 0);
     for x in (0..=one).rev().step_by(37) {
         let answer = naive.answer(0, x);
-        let (intensity, status) = logic.result(small.datapath(), 0, x);
+        let found = small.datapath().evaluate(0, x);
+        let (intensity, status) = (found.intensity, found.status);
         assert_eq!((answer.intensity, answer.status), (intensity.into(), status.bits()), "{x}");
         if status.contains(Status::OUT_OF_DOMAIN) {
             assert_eq!((intensity, answer.status), (0, OUT_OF_DOMAIN));

@@ -5,10 +5,10 @@
 
 use askama::Template;
 use hw_model::config::Form;
-use hw_model::datapath::Datapath;
 use hw_model::datapath::formats::{PolynomialFormats, TailFormats};
 use hw_model::datapath::front_end::{Region, Variable};
 use hw_model::datapath::stage::MultiplyAdd;
+use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
@@ -272,7 +272,9 @@ fn encodings(datapath: &Datapath) -> Section {
         section = section.bits(name, REGION_WIDTH, region as u64);
     }
     section = section.integer("STATUS_WIDTH", datapath.status_width());
-    datapath.status_flags().iter().fold(section, |section, &(flag, name)| {
+    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for it.
+    let flags = datapath.status_flags().iter().filter(|(flag, _)| *flag != Status::OUT_OF_DOMAIN);
+    flags.fold(section, |section, &(flag, name)| {
         section.integer(format!("STATUS_{}", name.to_uppercase()), flag.bits().trailing_zeros())
     })
 }
