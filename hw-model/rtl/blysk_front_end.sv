@@ -7,6 +7,9 @@
 //   tail        0 <= x < cut, configuration keeps a divider   the divider answers
 //   zero        0 <= x < cut without one; x < 0; no ROM word  the intensity is 0
 //
+// A configuration with a domain has one status bit more, out_of_domain: its cut is the least x that is presented, and
+// 0 <= x < cut with a ROM word is refused.
+//
 // With two segments (SEGMENTS = 2) the second answers from cut up to hand_over: outer_o chooses its
 // coefficients, and its variable counts from hand_over.
 //
@@ -142,10 +145,20 @@ module blysk_front_end (
   // ---- Status -------------------------------------------------------------------------------------
   logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
 
-  always_comb begin
-    status_d                                = status_i;
-    status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
-    status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
+  if (blysk_pkg::STATUS_WIDTH > blysk_pkg::STATUS_CLAMPED + 1) begin : domain
+    // The flag behind the last of the others: the cut is the least x that is presented.
+    always_comb begin
+      status_d                                = status_i;
+      status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
+      status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
+      status_d[blysk_pkg::STATUS_WIDTH-1]     = !no_word && !facing_away && !above_cut;
+    end
+  end else begin : every_x
+    always_comb begin
+      status_d                                = status_i;
+      status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
+      status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
+    end
   end
 
   always_ff @(posedge clk_i) begin

@@ -45,6 +45,9 @@ module blysk_stage #(
     logic signed [MULTIPLICAND_WIDTH+VARIABLE_WIDTH:0] whole;
     assign whole   = $signed(multiplicand_i) * $signed({1'b0, variable_i});
     assign product = SUM_WIDTH'(whole);
+  end else if (MULTIPLICAND_WIDTH == 1) begin : one_bit
+    // Coefficients that are all 0 or a power of two: no multiplier.
+    assign product = multiplicand_i[0] ? SUM_WIDTH'(variable_i) : '0;
   end else begin : unsigned_product
     logic [MULTIPLICAND_WIDTH+VARIABLE_WIDTH-1:0] whole;
     assign whole   = multiplicand_i * variable_i;

@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::domain::{self, Presented};
 use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
@@ -148,6 +149,9 @@ pub struct Config {
     /// formats of the coefficients stated.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub coefficient_steps: Vec<CoefficientSteps>,
+    /// The x that are presented, one entry for each exponent; every x where it is empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub domain: Vec<Presented>,
 }
 
 fn default_q() -> f64 {
@@ -244,6 +248,7 @@ impl Config {
         self.check_segments()?;
         self.check_formats()?;
         steps::check(self)?;
+        domain::check(self)?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }

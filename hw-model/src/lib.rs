@@ -8,6 +8,7 @@ pub mod budget;
 pub mod config;
 pub mod datapath;
 pub mod design;
+pub mod domain;
 pub mod exponents;
 pub mod fit;
 pub mod format;

@@ -3,6 +3,7 @@
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::datapath::Datapath;
 use hw_model::design::Design;
+use hw_model::domain::Presented;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
@@ -102,7 +103,27 @@ pub fn random(random: &mut Random) -> Config {
     if random.once_in(6) {
         state_widths(random, &mut config);
     }
+    if config.tail == Tail::Zero && random.once_in(6) {
+        state_domain(random, &mut config);
+    }
     config
+}
+
+/// A domain that begins at or above every cut, or rarely below one.
+fn state_domain(random: &mut Random, config: &mut Config) {
+    let Ok(design) = Design::new(config.clone()) else {
+        return;
+    };
+    let ulp = config.input.ulp();
+    config.domain = design
+        .rows()
+        .iter()
+        .map(|row| {
+            let cut = (row.cut as f64 * ulp).min(1.0);
+            let least = if random.once_in(30) { 0.9 * cut } else { random.real(cut, 1.0) };
+            Presented { n: row.exponent, least }
+        })
+        .collect();
 }
 
 fn levels(random: &mut Random) -> (f64, f64) {

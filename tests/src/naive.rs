@@ -35,6 +35,9 @@ pub const FACING_AWAY: u8 = 4;
 /// The polynomial left [0, 1].
 pub const CLAMPED: u8 = 8;
 
+/// x outside the domain of its exponent.
+pub const OUT_OF_DOMAIN: u8 = 16;
+
 /// An exact ratio; not reduced, the denominator positive.
 #[derive(Debug, Clone)]
 pub struct Exact {
@@ -216,6 +219,8 @@ impl<'a> Naive<'a> {
         status |= if above_one { ABOVE_ONE } else { 0 };
         status |= if x < 0 { FACING_AWAY } else { 0 };
 
+        status |= if self.is_refused(address, x) { OUT_OF_DOMAIN } else { 0 };
+
         let greatest = greatest_in_unit_interval(self.formats.input);
         let clamped = BigInt::from(x).clamp(BigInt::ZERO, greatest.clone());
         let region = self.region(row, x);
@@ -245,6 +250,16 @@ impl<'a> Naive<'a> {
             _ => BigInt::ZERO,
         };
         Answer { lines, divisor, region, intensity, status }
+    }
+
+    /// True where the configuration has a domain, and x lies below the last x of the input format that is not above
+    /// its beginning.
+    fn is_refused(&self, address: u32, x: i64) -> bool {
+        self.config.domain.get(address as usize).is_some_and(|presented| {
+            let fraction = self.formats.input.fraction_bits();
+            let first = Exact::of_f64(presented.least).into_register(fraction, Rounding::Floor);
+            x >= 0 && BigInt::from(x) < first
+        })
     }
 
     fn region(&self, row: Option<&Row>, x: i64) -> &'static str {

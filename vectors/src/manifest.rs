@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use hw_model::config::Config;
-use hw_model::datapath::{Datapath, Status};
+use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 use hw_model::rom::Place;
 use serde::{Deserialize, Serialize};
@@ -193,9 +193,10 @@ impl Hardware {
             ("address", rom.address_width()),
             ("x", formats.input.width()),
             ("intensity", formats.output.width()),
-            ("status", Status::WIDTH),
+            ("status", datapath.status_width()),
         ];
-        let flags = Status::NAMES.map(|(flag, name)| (name, flag.bits().trailing_zeros()));
+        let flags = datapath.status_flags().iter();
+        let flags = flags.map(|(flag, name)| (*name, flag.bits().trailing_zeros()));
         let constants = rom.layout().fields().iter().filter_map(|field| match field.place {
             Place::Stored { .. } => None,
             Place::Constant { bits } => {
@@ -234,6 +235,6 @@ impl Manifest {
     }
 }
 
-fn named<const N: usize>(pairs: [(&str, u32); N]) -> BTreeMap<String, u32> {
+fn named<'a>(pairs: impl IntoIterator<Item = (&'a str, u32)>) -> BTreeMap<String, u32> {
     pairs.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }

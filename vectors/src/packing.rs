@@ -1,7 +1,7 @@
 //! How ports are laid side by side in one memory word.
 
 use dashu_int::UBig;
-use hw_model::datapath::{Datapath, Status};
+use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 use hw_model::rom::{Layout, Place};
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ impl WordLayout {
     /// `{status, intensity}`.
     #[must_use]
     pub fn expected(datapath: &Datapath) -> Self {
-        let status = QFormat::field(Status::WIDTH);
+        let status = QFormat::field(datapath.status_width());
         Self::of(&[("status", status), ("intensity", datapath.formats().output)])
     }
 

@@ -161,7 +161,8 @@ impl Logic {
         let region = if known { region } else { Region::Zero };
         let status = fetched
             .with(Status::ABOVE_ONE, given > input_one)
-            .with(Status::FACING_AWAY, given < L::ZERO);
+            .with(Status::FACING_AWAY, given < L::ZERO)
+            .with(Status::OUT_OF_DOMAIN, known && front_end.outside(given, region));
         let hand_over = L::from_bits(row.get(FieldName::HandOver));
         let outer = front_end.is_outer(x, region, hand_over);
         let segment = if outer { Segment::outer(row) } else { Segment::first(row, input_one) };

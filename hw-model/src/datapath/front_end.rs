@@ -8,6 +8,9 @@
 //! | `tail`       | 0 ≤ x < cut, configuration keeps a divider  | the divider           |
 //! | `zero`       | 0 ≤ x < cut without one; x < 0; no ROM word | 0                     |
 //!
+//! In a configuration with a domain ([`crate::domain`]) the cut is the least x of it, and an x from 0 up to there is
+//! refused: the intensity is zero and the status says so.
+//!
 //! With two segments, the second answers from `cut` up to `hand_over`: it has coefficients and a shift of its
 //! own, and v = (hand_over − x)·2^shift counts from where the first one hands over. From the front
 //! end on its coefficients stand in the places of the first's.
@@ -75,6 +78,8 @@ pub struct FrontEnd {
     pub variable: Option<Variable>,
     /// True when the configuration keeps a divider.
     pub tail: bool,
+    /// True where the configuration has a domain: no x below the cut is presented.
+    pub guarded: bool,
 }
 
 impl FrontEnd {
@@ -139,6 +144,12 @@ impl FrontEnd {
         } else {
             Region::Zero
         }
+    }
+
+    /// Whether x (not clamped) lies outside the domain of a row that there is.
+    #[inline(always)]
+    pub fn outside<L: Lane>(&self, x: L, region: Region) -> bool {
+        self.guarded && region == Region::Zero && x >= L::ZERO
     }
 
     /// Whether the second segment answers for a clamped x; never with a row of one segment, whose

@@ -90,6 +90,19 @@ impl Datapath {
         self.output_one
     }
 
+    /// The flags of the status port, from bit 0 up.
+    #[must_use]
+    pub fn status_flags(&self) -> &'static [(Status, &'static str)] {
+        let flags = &Status::NAMES;
+        if self.front_end.guarded { flags } else { &flags[..flags.len() - 1] }
+    }
+
+    /// Bits of the status port.
+    #[must_use]
+    pub fn status_width(&self) -> u32 {
+        self.status_flags().len() as u32
+    }
+
     /// Number of ranks of registers, which is the latency in clock cycles.
     #[must_use]
     pub fn rank_count(&self) -> usize {
@@ -182,7 +195,12 @@ impl Datapath {
             status: before
                 .status
                 .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
-                .with(Status::FACING_AWAY, given < L::ZERO),
+                .with(Status::FACING_AWAY, given < L::ZERO)
+                .with(
+                    Status::OUT_OF_DOMAIN,
+                    self.front_end.outside(given, region)
+                        && !before.status.contains(Status::NO_WORD),
+                ),
             v: self.front_end.variable(x, region, start, shift).to_bits(),
             tail_x: self.front_end.tail_x(x, region).to_bits(),
             ..*before
@@ -280,7 +298,9 @@ impl Datapath {
             }
         }
         let computed = rank <= 1 || rank == last;
-        list.add("status", QFormat::field(Status::WIDTH), computed, |s| s.status.bits().into());
+        list.add("status", QFormat::field(self.status_width()), computed, |s| {
+            s.status.bits().into()
+        });
         list.registers
     }
 

@@ -75,6 +75,16 @@ impl Datapath {
         Some(PolynomialReach { v: reach(0)?, lines: [reach(1)?, reach(2)?, reach(3)?] })
     }
 
+    /// True where t3 can pass 1, so that the clamp has something to compare. The range analysis behind t3's format has
+    /// room for errors that need not meet; where a domain is all that is asked, the values themselves decide.
+    #[must_use]
+    pub fn t3_exceeds_one(&self) -> bool {
+        let one = self.output_one;
+        let room = self.formats.polynomial.as_ref().is_some_and(|f| f.t3.max_bits() > one);
+        let reached = || self.polynomial_reach().is_none_or(|r| r.lines[2].greatest.bits > one);
+        room && (!self.front_end.guarded || reached())
+    }
+
     fn line_reach<L: Lane>(&self, line: usize) -> Option<Reach> {
         let greatest = self.search(line, |lines: &Interval<L>| lines.high)?;
         let mut least = self.search(line, |lines: &Interval<L>| -lines.low)?;

@@ -278,6 +278,10 @@ impl Lines {
                 .with(Status::NO_WORD, !words.known(request))
                 .with(Status::ABOVE_ONE, given > input_one)
                 .with(Status::FACING_AWAY, given < L::ZERO)
+                .with(
+                    Status::OUT_OF_DOMAIN,
+                    words.known(request) && front_end.outside(given, region),
+                )
                 .with(Status::CLAMPED, answers && answered != t3);
             regions[request] = region as i64;
             flags[request] = status.bits().into();

@@ -21,14 +21,15 @@ impl Status {
     pub const FACING_AWAY: Self = Self(4);
     /// The polynomial left [0, 1] and was clamped.
     pub const CLAMPED: Self = Self(8);
-    /// Bits of the status port.
-    pub const WIDTH: u32 = 4;
-    /// Every flag with its name, from bit 0 up.
-    pub const NAMES: [(Self, &'static str); 4] = [
+    /// x lies outside the domain that the configuration is built for; the intensity is 0.
+    pub const OUT_OF_DOMAIN: Self = Self(16);
+    /// Every flag with its name, from bit 0 up. Only a configuration with a domain has the last.
+    pub const NAMES: [(Self, &'static str); 5] = [
         (Self::NO_WORD, "no_word"),
         (Self::ABOVE_ONE, "above_one"),
         (Self::FACING_AWAY, "facing_away"),
         (Self::CLAMPED, "clamped"),
+        (Self::OUT_OF_DOMAIN, "out_of_domain"),
     ];
 
     /// The flags as the status port shows them.

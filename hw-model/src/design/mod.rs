@@ -19,6 +19,7 @@ use crate::config::{Config, ConfigError, Form};
 use crate::datapath::Datapath;
 use crate::datapath::formats::Formats;
 use crate::datapath::front_end::FrontEnd;
+use crate::domain;
 use crate::fit::FitError;
 use crate::format::QFormat;
 use crate::quantise::QuantiseError;
@@ -72,11 +73,14 @@ impl Design {
     pub fn new(config: Config) -> Result<Self, DesignError> {
         config.check()?;
         let levels = config.levels()?;
-        let rows: Vec<RealRow> = config
+        let mut rows: Vec<RealRow> = config
             .exponents
             .iter()
             .map(|exponent| RealRow::new(&config, levels, exponent))
             .collect::<Result<_, _>>()?;
+        for row in &mut rows {
+            row.cut = domain::least_bits(&config, row.exponent, row.cut)?.unwrap_or(row.cut);
+        }
         Self::of_rows(config, rows)
     }
 
@@ -97,6 +101,7 @@ impl Design {
                 one: config.input.one(),
                 variable: polynomial.as_ref().map(|(variable, _)| *variable),
                 tail: divider.is_some(),
+                guarded: !config.domain.is_empty(),
             },
             stages: polynomial.map(|(_, stages)| stages),
             divider,

@@ -57,6 +57,7 @@ impl Design {
         config.exponents = Exponents::new(vec![exponent]).map_err(|source| {
             crate::config::ConfigError::Field { field: "exponents", problem: source.to_string() }
         })?;
+        config.domain.retain(|presented| presented.n == exponent);
         revision.put_into(&mut config);
         config.check()?;
         Self::of_rows(config, row.into_iter().collect())

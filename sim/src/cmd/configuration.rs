@@ -40,7 +40,16 @@ impl MaybeConfiguration {
         if preset.is_none() && config.is_none() {
             return Ok(None);
         }
-        Configuration { preset: preset.clone(), config: config.clone() }.design().map(Some)
+        self.stated().design().map(Some)
+    }
+
+    /// The option as it would be typed; nothing where there is none.
+    pub(super) fn option(&self) -> String {
+        self.stated().option()
+    }
+
+    fn stated(&self) -> Configuration {
+        Configuration { preset: self.preset.clone(), config: self.config.clone() }
     }
 }
 

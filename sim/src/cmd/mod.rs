@@ -21,8 +21,10 @@ mod rom;
 mod rtl;
 mod scene;
 mod simulate;
+mod specialise;
 mod stability;
 mod stability_tables;
+mod synthesis;
 mod table;
 mod vectors;
 
@@ -60,6 +62,7 @@ enum Command {
     Render(render::Args),
     Mesh(mesh::Args),
     Scene(scene::Args),
+    Specialise(specialise::Args),
     Presets(presets::Args),
 }
 
@@ -134,6 +137,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Render(args) => render::run(&args, out),
         Command::Mesh(args) => mesh::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),
+        Command::Specialise(args) => specialise::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

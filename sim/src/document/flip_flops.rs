@@ -57,8 +57,8 @@ fn idle(datapath: &Datapath, rank: usize, registers: &[Register]) -> Vec<String>
         idle.extend(unused.map(|(bit, _): (u32, _)| format!("`region[{bit}]`")));
     }
     if rank > 0 && has("status") {
-        let never =
-            Status::NAMES.into_iter().filter(|&(flag, _)| !can_be_set(datapath, rank, flag));
+        let flags = datapath.status_flags().iter();
+        let never = flags.filter(|&&(flag, _)| !can_be_set(datapath, rank, flag));
         idle.extend(never.map(|(_, name)| format!("`{name}`")));
     }
     idle

@@ -105,9 +105,12 @@ struct Common<'a> {
     status_width: u32,
 }
 
+/// Bits of the status of a configuration without a domain, which all that are documented are.
+const STATUS_WIDTH: u32 = Status::NAMES.len() as u32 - 1;
+
 /// What every configuration has in common, and where their pages are.
 pub(super) fn common(pages: &[Entry], command: &str) -> Result<String, askama::Error> {
     let sources = SOURCES.iter().map(|&(name, _)| name).collect();
-    let page = Common { command, pages, sources, status_width: Status::WIDTH };
+    let page = Common { command, pages, sources, status_width: STATUS_WIDTH };
     Ok(page.render()? + "\n")
 }

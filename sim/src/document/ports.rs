@@ -35,7 +35,7 @@ pub(super) fn ports(datapath: &Datapath) -> Table {
         &output.to_string(),
         "the highlight, near xⁿ, 0 to 1",
     );
-    row("status_o", "out", Status::WIDTH, "flags", "see the status bits");
+    row("status_o", "out", datapath.status_width(), "flags", "see the status bits");
     table
 }
 
@@ -43,7 +43,7 @@ pub(super) fn ports(datapath: &Datapath) -> Table {
 pub(super) fn status(design: &Design) -> Table {
     let input = design.config().input;
     let mut table = Table::new(&["bit", "flag", "set when", "raised in"]);
-    for (flag, name) in Status::NAMES {
+    for &(flag, name) in design.datapath().status_flags() {
         let (when, rank) = match flag {
             Status::NO_WORD => {
                 ("the address has no ROM word; the intensity is 0".to_owned(), "fetch")
@@ -55,6 +55,10 @@ pub(super) fn status(design: &Design) -> Table {
             Status::FACING_AWAY if !input.is_signed() => {
                 (format!("never: {input} has no sign"), "front end")
             }
+            Status::OUT_OF_DOMAIN => (
+                "x is below the domain of its exponent; the intensity is 0".to_owned(),
+                "front end",
+            ),
             Status::FACING_AWAY => ("x is negative; the intensity is 0".to_owned(), "front end"),
             _ if design.datapath().stages().is_none() => {
                 ("never: there is no polynomial".to_owned(), "clamp")

@@ -35,6 +35,32 @@ impl Interval {
         Self::new(low.max(-1.0), high)
     }
 
+    /// The square root of what is not negative in it; [`UNKNOWN`](Self::UNKNOWN) where all of it is. IEEE 754 rounds
+    /// square roots correctly.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        if self.high < 0.0 {
+            return Self::UNKNOWN;
+        }
+        let Self { low, high } = Self::outward(self.low.max(0.0).sqrt(), self.high.sqrt());
+        Self::new(low.max(0.0), high)
+    }
+
+    /// The square of every number in it: never negative, which a product of two does not know.
+    #[must_use]
+    pub fn square(self) -> Self {
+        let (least, greatest) = (self.least_magnitude(), self.greatest_magnitude());
+        let Self { low, high } = Self::outward(least * least, greatest * greatest);
+        Self::new(low.max(0.0), high)
+    }
+
+    /// What of it lies from `low` to `high`; none where nothing does.
+    #[must_use]
+    pub fn within(self, low: f64, high: f64) -> Option<Self> {
+        let (low, high) = (self.low.max(low), self.high.min(high));
+        (low <= high).then_some(Self { low, high })
+    }
+
     /// The natural logarithm; [`UNKNOWN`](Self::UNKNOWN) unless every number in it is positive.
     #[must_use]
     pub fn ln(self) -> Self {

@@ -32,6 +32,9 @@ impl Interval {
     /// The number 1.
     pub const ONE: Self = Self { low: 1.0, high: 1.0 };
 
+    /// From 0 to 1.
+    pub const UNIT: Self = Self { low: 0.0, high: 1.0 };
+
     /// From `low` to `high` as they are; [`UNKNOWN`](Self::UNKNOWN) unless low ≤ high.
     #[must_use]
     pub fn new(low: f64, high: f64) -> Self {

@@ -3,7 +3,7 @@
 //! `docs/scene.schema.json` is made from these types, and the texts here are its descriptions.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Three coordinates, in the scene's own unit of length.
 pub type Triple = [f64; 3];
@@ -66,7 +66,7 @@ const fn eight() -> u32 {
 }
 
 /// From linear light to display codes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Transfer {
     /// The curve of sRGB (IEC 61966-2-1).

@@ -11,7 +11,7 @@ mod vcd;
 
 use std::io::{self, Seek, Write};
 
-use hw_model::datapath::{Datapath, Register, Status};
+use hw_model::datapath::{Datapath, Register};
 use hw_model::format::QFormat;
 
 use crate::run::Cycle;
@@ -224,7 +224,7 @@ fn ports(datapath: &Datapath) -> Vec<Signal> {
         ("out_valid_o", 1),
         ("out_ready_i", 1),
         ("intensity_o", formats.output.width()),
-        ("status_o", Status::WIDTH),
+        ("status_o", datapath.status_width()),
     ];
     ports.map(|(name, width)| Signal { name: name.to_owned(), width }).into()
 }

@@ -29,7 +29,7 @@ const VECTORS: u64 = 4096;
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 3] = [
+const SMALL: [(&str, Strategy, &str); 4] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -38,6 +38,14 @@ const SMALL: [(&str, Strategy, &str); 3] = [
         r#"{"name": "small_tail", "method": "hermite", "exponents": "1..=16", "input": "UQ1.7",
             "output": "UQ0.8", "form": "power", "tail": "rational", "rounding": "toward_zero",
             "error_budget_ulp": 2, "quotient_bits_per_stage": 3}"#,
+    ),
+    // A domain: x below it is refused.
+    (
+        "small_domain",
+        Strategy::Exhaustive,
+        r#"{"name": "small_domain", "method": "hermite", "exponents": "2,5,16", "input": "Q2.7",
+            "output": "UQ1.8", "form": "centred", "error_budget_ulp": 2, "domain":
+            [{"n": 2, "least": 0.75}, {"n": 5, "least": 0.9}, {"n": 16, "least": 0.97}]}"#,
     ),
 ];
 

@@ -35,7 +35,7 @@ fn flat(datapath: &Datapath) -> Vec<Part> {
     let formats = datapath.formats();
     let polynomial = formats.polynomial.as_ref();
     let clamps_x = formats.input.max_bits() > datapath.front_end().greatest;
-    let clamps_t3 = polynomial.is_some_and(|f| f.t3.max_bits() > datapath.output_one());
+    let clamps_t3 = datapath.t3_exceeds_one();
     let digits = datapath.divider().map_or(0, |divider| u64::from(divider.digit_count));
     let shift = matches!(datapath.front_end().variable, Some(Variable::U { .. }))
         && constant(datapath, FieldName::Shift).is_none();
@@ -65,9 +65,16 @@ fn flip_flops(datapath: &Datapath) -> Part {
     ("flip-flops", "t:$_*DFF*", bits.sum())
 }
 
-/// A multiplier for each line whose multiplicand is not known: 0 and powers of two take none.
+/// A multiplier for each line whose multiplicand is not known: 0 and powers of two take none, nor does one bit
+/// without a sign.
 fn multipliers(datapath: &Datapath) -> Part {
-    let needed = |field| constant(datapath, field).is_none_or(|bits| bits.count_ones() > 1);
+    let one_bit = |field| {
+        let field = datapath.rom().layout().field(field);
+        field.is_some_and(|field| field.format.width() == 1 && !field.format.is_signed())
+    };
+    let needed = |field| {
+        !one_bit(field) && constant(datapath, field).is_none_or(|bits| bits.count_ones() > 1)
+    };
     let polynomial = datapath.stages().map_or(0, |_| 2 + u64::from(needed(FieldName::C3)));
     let tail = datapath.divider().map_or(0, |_| u64::from(needed(FieldName::TailB)));
     ("multipliers", "t:$mul", polynomial + tail)

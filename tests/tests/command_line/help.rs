@@ -6,7 +6,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 19] = [
     "report",
     "vectors",
     "rtl",
@@ -25,6 +25,7 @@ const COMMANDS: [&str; 18] = [
     "render",
     "mesh",
     "scene",
+    "specialise",
 ];
 
 /// The command lines after "Example:" or "Examples:".

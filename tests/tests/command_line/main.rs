@@ -16,5 +16,6 @@ mod render;
 mod report;
 mod report_against_brute_force;
 mod rom;
+mod specialise;
 mod stability;
 mod vectors;

@@ -2,7 +2,6 @@
 
 use std::collections::HashMap;
 
-use hw_model::datapath::Status;
 use hw_model::design::Design;
 use vcd::{Command, Header, IdCode, Parser, ScopeItem, TimescaleUnit, Value, VarType};
 
@@ -44,7 +43,7 @@ pub fn signals(design: &Design) -> Vec<Signal> {
         ("out_valid_o", "out_valid", 1),
         ("out_ready_i", "out_ready", 1),
         ("intensity_o", "intensity", formats.output.width()),
-        ("status_o", "status", Status::WIDTH),
+        ("status_o", "status", datapath.status_width()),
     ];
     let mut signals: Vec<Signal> = ports
         .map(|(name, column, width)| Signal {

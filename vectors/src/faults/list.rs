@@ -107,5 +107,8 @@ fn logic(datapath: &Datapath) -> Vec<Logic> {
         list.extend([Logic::NegativeAsUnsigned, Logic::NoFlag(Status::FACING_AWAY)]);
     }
     list.push(Logic::NoFlag(Status::NO_WORD));
+    if datapath.front_end().guarded {
+        list.push(Logic::NoFlag(Status::OUT_OF_DOMAIN));
+    }
     list
 }

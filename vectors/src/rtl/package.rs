@@ -40,7 +40,7 @@ pub fn package(design: &Design, command: &str) -> String {
             front_end(datapath),
             polynomial(design),
             tail(datapath),
-            encodings(),
+            encodings(datapath),
         ],
     };
     // The template writes to a String, which cannot fail.
@@ -219,7 +219,6 @@ fn polynomial(design: &Design) -> Section {
     let datapath = design.datapath();
     let formats = datapath.formats().polynomial;
     let of = |get: fn(&PolynomialFormats) -> QFormat| formats.as_ref().map(get);
-    let exceeds = of(|f| f.t3).is_some_and(|t3| t3.max_bits() > datapath.output_one());
     let carried = |section: Section, name: FieldName| {
         let name_carried = format!("{}_CARRIED", name.name().to_uppercase());
         section.integer(name_carried, i64::from(datapath.is_carried(name)))
@@ -232,7 +231,7 @@ fn polynomial(design: &Design) -> Section {
         .format("T1", of(|f| f.t1))
         .format("T2", of(|f| f.t2))
         .format("T3", of(|f| f.t3))
-        .integer("T3_EXCEEDS_ONE", i64::from(exceeds));
+        .integer("T3_EXCEEDS_ONE", i64::from(datapath.t3_exceeds_one()));
     for (index, name) in ["T1", "T2", "T3"].into_iter().enumerate() {
         let line = datapath.stages().zip(formats.as_ref()).map(|(stages, formats)| {
             let [c0, c1, c2, c3] = formats.coefficients;
@@ -264,7 +263,7 @@ fn tail(datapath: &Datapath) -> Section {
         .rounding("QUOTIENT", divider.map_or(Rounding::Floor, |d| d.rounding))
 }
 
-fn encodings() -> Section {
+fn encodings(datapath: &Datapath) -> Section {
     const REGION_WIDTH: u32 = 2;
     let mut section =
         Section::new("Regions, and the bits of the status").integer("REGION_WIDTH", REGION_WIDTH);
@@ -272,8 +271,10 @@ fn encodings() -> Section {
         let name = format!("REGION_{}", region.name().to_uppercase());
         section = section.bits(name, REGION_WIDTH, region as u64);
     }
-    section = section.integer("STATUS_WIDTH", Status::WIDTH);
-    Status::NAMES.into_iter().fold(section, |section, (flag, name)| {
+    section = section.integer("STATUS_WIDTH", datapath.status_width());
+    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for it.
+    let flags = datapath.status_flags().iter().filter(|(flag, _)| *flag != Status::OUT_OF_DOMAIN);
+    flags.fold(section, |section, &(flag, name)| {
         section.integer(format!("STATUS_{}", name.to_uppercase()), flag.bits().trailing_zeros())
     })
 }

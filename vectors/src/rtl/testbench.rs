@@ -1,7 +1,7 @@
 //! The self-checking testbench.
 
 use askama::Template;
-use hw_model::datapath::{Datapath, Status};
+use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 
 use super::Sources;
@@ -28,7 +28,7 @@ pub fn testbench(sources: &Sources<'_>) -> String {
         address: Number::of(QFormat::field(datapath.rom().address_width())),
         x: Number::of(formats.input),
         intensity: Number::of(formats.output),
-        status_width: Status::WIDTH,
+        status_width: datapath.status_width(),
         stage_width: word.width,
         rom_width: datapath.rom().layout().word_width(),
         white_box_ranks: ranks(datapath, &probes, &word),

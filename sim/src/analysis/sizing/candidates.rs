@@ -81,6 +81,7 @@ fn plain(request: &Request) -> Config {
         error_budget_ulp: 1.0,
         widths: StatedWidths::default(),
         coefficient_steps: Vec::new(),
+        domain: Vec::new(),
     }
 }
 

@@ -33,7 +33,7 @@ pub use judge::Place;
 use judge::{Judge, greatest};
 use narrow::State;
 pub use registers::Hardware;
-use registers::{NAMES, stated};
+pub(crate) use registers::{NAMES, of_stated, stated, taken, tight};
 pub use witness::{Breaks, Fewer, Witness};
 
 /// Over which x the error is to be kept.

@@ -215,6 +215,7 @@ fn widths(
         segments: 1,
         widths: Default::default(),
         coefficient_steps: Vec::new(),
+        domain: Vec::new(),
     };
     let mut row = Widths {
         method,

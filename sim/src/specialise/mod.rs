@@ -1,0 +1,23 @@
+//! Hardware for one scene: what the scene can ask, and a configuration that answers that and leaves out the rest.
+//!
+//! | file | holds |
+//! |---|---|
+//! | `demand.rs`, `tile.rs`, `space.rs` | for each exponent the interval of x that the picture presents, proved |
+//! | `derive.rs` | the configuration that keeps what these need, its points where they were |
+//! | `codes.rs` | the same with fewer output bits, where display codes may differ |
+//! | `certificate.rs` | every (n, x) through both; sealed, and checked again |
+//! | `figures.rs` | what was left out, and why |
+
+mod certificate;
+mod codes;
+mod demand;
+mod derive;
+mod figures;
+mod space;
+mod tile;
+
+pub use certificate::{Certificate, Display, Part, Proved, Refused, certify};
+pub use codes::{ReduceError, pixels_outside, reduce};
+pub use demand::{Demand, demands};
+pub use derive::{Row, SpecialiseError, derive, is_guarded, rows};
+pub use figures::{LeftOut, left_out};

@@ -1,0 +1,158 @@
+//! `blysk specialise`: what is left out, what the certificate is worth, and what happens outside the domain.
+
+use std::path::{Path, PathBuf};
+
+use blysk_tests::bench;
+use blysk_tests::cli::{Bench, csv_rows, number};
+use blysk_tests::naive::{Naive, OUT_OF_DOMAIN};
+use hw_model::config::Config;
+use hw_model::datapath::Status;
+use hw_model::design::Design;
+use hw_model::presets;
+use num_bigint::BigInt;
+
+fn scene(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes").join(format!("{name}.json"))
+}
+
+fn specialised(bench: &Bench, name: &str, more: &[&str]) -> String {
+    let path = scene(name);
+    let list = [&["specialise", path.to_str().unwrap()], more].concat();
+    let run = bench.run_list(&list);
+    assert!(run.status == 0 && run.stderr.is_empty(), "{run:#?}");
+    assert!(run.stdout.lines().all(|line| line.chars().count() <= 100), "{run:#?}");
+    run.stdout
+}
+
+fn design(bench: &Bench, file: &str) -> Design {
+    Design::new(Config::from_json(&bench.text(file)).unwrap()).unwrap()
+}
+
+fn part(bench: &Bench, table: &str, name: &str) -> [f64; 2] {
+    let rows = csv_rows(&bench.text(table));
+    let row = rows.iter().find(|row| row["part"] == name).unwrap();
+    [number(row, "before"), number(row, "after")]
+}
+
+#[test]
+fn the_close_up_keeps_one_row_and_no_tail() {
+    let bench = bench!();
+    let said = specialised(&bench, "close_up", &["--preset", "paper", "--out", "small"]);
+    assert!(said.contains("proved bit-identical over "), "{said}");
+    assert_eq!(part(&bench, "small/left_out.csv", "ROM words"), [256.0, 1.0]);
+    assert_eq!(part(&bench, "small/left_out.csv", "divider ranks"), [9.0, 0.0]);
+    assert_eq!(part(&bench, "small/left_out.csv", "address bits"), [9.0, 1.0]);
+    // Every x, by the naive model of the small one and the data path of the whole one.
+    let small = design(&bench, "small/configuration.json");
+    let whole = Design::new(presets::find("paper").unwrap().config().unwrap()).unwrap();
+    let naive = Naive::new(&small);
+    let one = whole.config().input.one();
+    let (mut inside, mut outside) = (0, 0);
+    for x in (0..=one).rev().step_by(37) {
+        let answer = naive.answer(0, x);
+        let found = small.datapath().evaluate(0, x);
+        let (intensity, status) = (found.intensity, found.status);
+        assert_eq!((answer.intensity, answer.status), (intensity.into(), status.bits()), "{x}");
+        if status.contains(Status::OUT_OF_DOMAIN) {
+            assert_eq!((intensity, answer.status), (0, OUT_OF_DOMAIN));
+            outside += 1;
+        } else {
+            assert_eq!(BigInt::from(whole.datapath().evaluate(63, x).intensity), intensity.into());
+            inside += 1;
+        }
+    }
+    assert!(inside > 1000 && outside > 100_000, "{inside} {outside}");
+    // No exponent is not a matter of the domain.
+    assert_eq!(small.datapath().evaluate(1, 5).status, Status::NO_WORD);
+}
+
+#[test]
+fn exponents_up_to_three_need_a_multiplier_less_and_every_x() {
+    let bench = bench!();
+    let said = specialised(&bench, "low_exponents", &["--preset", "paper", "--out", "small"]);
+    assert!(said.contains("Every x from 0 to 1 is answered as before"), "{said}");
+    let [before, after] = part(&bench, "small/left_out.csv", "multipliers");
+    assert!(after < before, "{said}");
+    assert!(design(&bench, "small/configuration.json").config().domain.is_empty());
+}
+
+#[test]
+fn codes_that_may_differ_save_bits() {
+    let bench = bench!();
+    let more = ["--preset", "paper", "--allow-codes", "1", "--out", "small"];
+    let said = specialised(&bench, "close_up", &more);
+    assert!(said.contains("proved within 1 display codes over "), "{said}");
+    let [before, after] = part(&bench, "small/left_out.csv", "intensity bits");
+    assert!(before == 16.0 && after < 12.0, "{said}");
+    let held = bench.good("specialise --check small/certificate.json");
+    assert!(held.contains("certificate.json holds: "), "{held}");
+}
+
+#[test]
+fn a_certificate_is_checked_and_a_wrong_one_refused() {
+    let bench = bench!();
+    specialised(&bench, "close_up", &["--preset", "paper", "--out", "small"]);
+    let path = scene("close_up");
+    let check =
+        |file: &str| bench.run_list(&["specialise", path.to_str().unwrap(), "--check", file]);
+    assert_eq!(check("small/certificate.json").status, 0);
+    let text = bench.text("small/certificate.json");
+    for (wrong, from, to) in [
+        ("digit", "\"points\": 5", "\"points\": 6"),
+        ("space", "\n", "\n\n"),
+        ("least", "\"least\": 0.993", "\"least\": 0.992"),
+        ("fields", "\"version\": 1,", ""),
+    ] {
+        assert!(text.contains(from), "{wrong}: {text}");
+        bench.write("wrong.json", text.replacen(from, to, 1));
+        let run = check("wrong.json");
+        assert_eq!(run.status, 1, "{wrong}: {run:#?}");
+        assert!(run.stdout.contains("does not hold: "), "{wrong}: {run:#?}");
+    }
+    // Another scene is not the one it was made for.
+    let other = scene("one_material");
+    let run = bench.run_list(&[
+        "specialise",
+        other.to_str().unwrap(),
+        "--check",
+        "small/certificate.json",
+    ]);
+    assert!(run.status == 1 && run.stdout.contains("scene: "), "{run:#?}");
+}
+
+#[test]
+fn the_same_command_writes_the_same_bytes() {
+    let bench = bench!();
+    for directory in ["one", "two"] {
+        specialised(&bench, "many_materials", &["--preset", "compact", "--out", directory]);
+    }
+    assert!(bench.tree("one") == bench.tree("two"));
+    let held = bench.good("specialise --check one/certificate.json");
+    assert!(held.contains("the same bits"), "{held}");
+}
+
+#[test]
+fn what_cannot_be_specialised_is_refused() {
+    let bench = bench!();
+    let path = scene("close_up");
+    let path = path.to_str().unwrap();
+    bench.refused_list(&["specialise", path, "--config", "small.json"], &["no word for n = 64"]);
+    bench.refused_list(&["specialise", path], &["--preset NAME or --config FILE"]);
+    bench.refused_list(&["specialise"], &["SCENE"]);
+    let domain = |rest: &str| {
+        let shown = bench.good("presets show compact").replace("\"1..=256\"", "\"2,9\"");
+        let end = shown.trim_end().trim_end_matches('}').trim_end().to_owned();
+        bench.write("domain.json", format!("{end},\n{rest}}}"));
+    };
+    for (rest, said) in [
+        (r#""domain": [{"n": 2, "least": 0.9}]"#, "one n and least for each exponent"),
+        (
+            r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 1.5}]"#,
+            "use a number from 0 to 1",
+        ),
+        (r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 0.1}]"#, "below its cut"),
+    ] {
+        domain(rest);
+        bench.refused("rom --config domain.json", &["domain", said]);
+    }
+}
