@@ -295,7 +295,7 @@ impl<'a> Pair<'a> {
     fn outside(&self, first: i64, last: i64) -> Found {
         let datapath = self.designs[1].datapath();
         let logic = datapath.logic();
-        let mut requests = datapath.requests::<REQUESTS>();
+        let mut requests = datapath.requests::<REQUESTS, REQUESTS>();
         requests.addresses = [self.addresses[1]; REQUESTS];
         let mut found = Found::default();
         for begin in (first..=last).step_by(REQUESTS) {
@@ -303,7 +303,7 @@ impl<'a> Pair<'a> {
             for (x, place) in (begin..).zip(&mut requests.xs) {
                 *place = x;
             }
-            logic.evaluate(datapath, &mut requests);
+            logic.evaluate(datapath, &mut requests, 0);
             for (index, &intensity) in requests.intensities().iter().enumerate().take(count) {
                 if intensity == 0 && requests.status(index).contains(Status::OUT_OF_DOMAIN) {
                     found.refused += 1;
