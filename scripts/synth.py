@@ -30,6 +30,8 @@ MARKERS = "<!-- table: made by `make synth` -->", "<!-- end of table -->"
 
 # Beside the presets.
 EXAMPLES = {"compact_12_bit": ["--config", "docs/examples/compact_12_bit.json"]}
+# Scenes, each with what `blysk specialise` leaves of preset paper for it.
+SCENES = ["close_up", "low_exponents"]
 SEEDS = [1, 2, 3]
 
 # What each family's cells are counted as, what the device has, and the commands. {top} and {seed} are
@@ -69,7 +71,16 @@ def configurations(blysk):
     command = [*shlex.split(blysk), "presets", "--format", "csv"]
     listed = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
     presets = [row["preset"] for row in csv.DictReader(io.StringIO(listed))]
-    return {**{name: ["--preset", name] for name in presets}, **EXAMPLES}
+    return {**{name: ["--preset", name] for name in presets}, **EXAMPLES,
+            **{f"{scene}_paper": specialised(blysk, scene) for scene in SCENES}}
+
+
+def specialised(blysk, scene):
+    place = WORK / "specialised" / scene
+    command = [*shlex.split(blysk), "specialise", f"docs/scenes/{scene}.json", "--preset", "paper",
+               "--count", "1", "--out", str(place)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=ROOT)
+    return ["--config", str(place / "configuration.json")]
 
 
 def emit(blysk, name, option):

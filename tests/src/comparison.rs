@@ -263,7 +263,12 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
                 }
             }
         }
-        if !fitted {
+        if let Some(first) = first_presented(design, real.exponent) {
+            if first != BigInt::from(row.get(FieldName::Cut)) {
+                let text = format!("n = {}: the domain does not begin at {first}", real.exponent);
+                return complain(Kind::Rom, text);
+            }
+        } else if !fitted {
             cut(design, real, row.get(FieldName::Cut))?;
         }
     }
@@ -272,6 +277,14 @@ pub fn rom(design: &Design) -> Result<(), Complaint> {
 
 /// Cut and hand-over are the least x that are not below the ends of the fitted segments, and each segment is
 /// moved up as far as keeps it below 1.
+/// The first x of an exponent's domain, which stands in the place of the cut.
+fn first_presented(design: &Design, exponent: f64) -> Option<BigInt> {
+    let config = design.config();
+    let presented = config.domain.iter().find(|presented| presented.n == exponent)?;
+    let fraction = config.input.fraction_bits();
+    Some(Exact::of_f64(presented.least).into_register(fraction, Rounding::Floor))
+}
+
 /// What the configuration moves a field by, beyond rounding.
 fn steps_of(design: &Design, exponent: f64, name: FieldName) -> i32 {
     let steps = design.config().coefficient_steps.iter().find(|steps| steps.n == exponent);
@@ -291,7 +304,8 @@ fn segments(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint>
     };
     let last = *fitted.ends.last().expect("a fit has a segment");
     let first = if count == 2 && fitted.further.is_empty() { last / 2.0 } else { fitted.ends[0] };
-    let mut wanted = vec![(FieldName::Cut, least_x(last))];
+    let cut = first_presented(design, real.exponent).unwrap_or_else(|| least_x(last));
+    let mut wanted = vec![(FieldName::Cut, cut)];
     if count == 2 {
         wanted.push((FieldName::HandOver, least_x(first)));
     }

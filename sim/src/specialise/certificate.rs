@@ -5,33 +5,26 @@
 //! of what was found it believes nothing.
 
 use hw_model::config::{Config, ConfigError};
-use hw_model::datapath::Status;
 use hw_model::design::{Design, DesignError};
-use hw_model::quantise::real;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::checksum::checksum;
 
+use super::compare::certify;
 use super::derive::Row;
 use crate::analysis::error_report::Progress;
-use crate::render::Codes;
-use crate::scene::{Image, Transfer};
+use crate::scene::Transfer;
 
 /// What the first line says.
 const FORMAT: &str = "blysk specialisation";
 /// What changes when an older program could not check what is written.
 const VERSION: u32 = 1;
-/// x that are evaluated together.
-const PIECE: i64 = 1 << 14;
-/// x outside the domain that are evaluated side by side.
-const REQUESTS: usize = 128;
 
 /// How alike the answers are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Proved {
-    /// Every bit of every intensity, as numbers.
+    /// Every intensity as a number, and every flag that both have.
     BitIdentical,
     /// At most the allowed display codes, of the highlight at full strength in the scene's transfer curve.
     Codes {
@@ -66,7 +59,7 @@ pub struct Part {
     pub last: i64,
     /// x from the first to the last.
     pub points: u64,
-    /// Of them, those whose intensities differ.
+    /// Of them, those whose intensities or flags differ.
     pub differing: u64,
     /// The greatest difference of intensities, as a fraction of full intensity.
     pub greatest: f64,
@@ -139,189 +132,6 @@ pub enum Refused {
         /// What is so.
         found: String,
     },
-}
-
-/// Goes through every x of the rows.
-///
-/// # Errors
-/// When a part has no word, an x that should be refused is answered, or answers differ by more than `allowed` codes
-/// (by anything, without it).
-pub fn certify(
-    source: &Design,
-    specialised: &Design,
-    rows: &[Row],
-    display: Display,
-    allowed: Option<u16>,
-    progress: &dyn Progress,
-) -> Result<(Proved, Vec<Part>), Refused> {
-    let codes = Codes::new(&Image {
-        width: 1,
-        height: 1,
-        display_bits: display.bits,
-        transfer: display.transfer,
-    });
-    let mut greatest_codes = 0;
-    let mut parts = Vec::new();
-    for (index, row) in rows.iter().enumerate() {
-        let pair = Pair::new(source, specialised, row, &codes)
-            .map_err(|problem| Refused::Part { index, n: row.demand.exponent, problem })?;
-        let found = pair.all(progress);
-        let fails = |problem: String| Refused::Part { index, n: row.demand.exponent, problem };
-        if let Some(x) = found.answered {
-            return Err(fails(format!("x = {x} lies outside the domain and is not refused")));
-        }
-        greatest_codes = greatest_codes.max(found.codes);
-        match allowed {
-            None if found.differing > 0 => {
-                return Err(fails(format!("{} intensities differ", found.differing)));
-            }
-            Some(allowed) if found.codes > allowed => {
-                return Err(fails(format!("codes differ by {}, and {allowed} may", found.codes)));
-            }
-            _ => {}
-        }
-        parts.push(pair.part(row, &found));
-    }
-    let proved = match allowed {
-        None => Proved::BitIdentical,
-        Some(allowed) => Proved::Codes { allowed, greatest: greatest_codes },
-    };
-    Ok((proved, parts))
-}
-
-/// The same exponent in both.
-struct Pair<'a> {
-    designs: [&'a Design; 2],
-    addresses: [u32; 2],
-    codes: &'a Codes,
-    /// The first and the last x of the domain.
-    domain: (i64, i64),
-    /// Whether x below the domain are refused.
-    guarded: bool,
-}
-
-/// What was found over some x.
-#[derive(Debug, Clone, Copy, Default)]
-struct Found {
-    points: u64,
-    differing: u64,
-    greatest: f64,
-    codes: u16,
-    refused: u64,
-    /// An x that should have been refused.
-    answered: Option<i64>,
-}
-
-impl Found {
-    fn and(self, other: Self) -> Self {
-        Self {
-            points: self.points + other.points,
-            differing: self.differing + other.differing,
-            greatest: self.greatest.max(other.greatest),
-            codes: self.codes.max(other.codes),
-            refused: self.refused + other.refused,
-            answered: self.answered.or(other.answered),
-        }
-    }
-}
-
-impl<'a> Pair<'a> {
-    fn new(
-        source: &'a Design,
-        specialised: &'a Design,
-        row: &Row,
-        codes: &'a Codes,
-    ) -> Result<Self, String> {
-        let designs = [source, specialised];
-        let place = |design: &Design| {
-            let place = design.rom().exponents().position(row.demand.exponent);
-            place
-                .map(|place| place as u32)
-                .ok_or_else(|| format!("{} has no word", design.config().name))
-        };
-        let addresses = [place(source)?, place(specialised)?];
-        if source.config().input != specialised.config().input {
-            return Err("the two take x in different formats".to_owned());
-        }
-        let greatest = source.datapath().front_end().greatest;
-        let guarded = specialised.datapath().front_end().guarded;
-        // Without a guard every x is answered, and so every x is looked at.
-        let first = if guarded { row.least } else { 0 };
-        Ok(Self { designs, addresses, codes, domain: (first, greatest), guarded })
-    }
-
-    fn all(&self, progress: &dyn Progress) -> Found {
-        let last = self.domain.1;
-        (0..=last / PIECE)
-            .into_par_iter()
-            .map(|piece| {
-                let (first, end) = (piece * PIECE, ((piece + 1) * PIECE - 1).min(last));
-                let (low, high) = self.domain;
-                let mut found = Found::default();
-                if first < low {
-                    found = found.and(self.outside(first, end.min(low - 1)));
-                }
-                if end >= low {
-                    found = found.and(self.inside(first.max(low), end.min(high)));
-                }
-                progress.advance((end - first + 1) as u64);
-                found
-            })
-            .reduce(Found::default, Found::and)
-    }
-
-    fn inside(&self, first: i64, last: i64) -> Found {
-        let count = (last - first + 1) as usize;
-        let answers = [0, 1].map(|which| {
-            let mut answers = vec![0; count];
-            let design: &Design = self.designs[which];
-            design.datapath().evaluate_run(self.addresses[which], first, &mut answers);
-            (answers, design.config().output)
-        });
-        let [(source, source_format), (specialised, format)] = &answers;
-        let mut found = Found { points: count as u64, ..Found::default() };
-        for (&source, &specialised) in source.iter().zip(specialised) {
-            let [wanted, got] = [real(source, *source_format), real(specialised, *format)];
-            if wanted.to_bits() == got.to_bits() {
-                continue;
-            }
-            found.differing += 1;
-            found.greatest = found.greatest.max((wanted - got).abs());
-            found.codes = found.codes.max(self.codes.of(wanted).abs_diff(self.codes.of(got)));
-        }
-        found
-    }
-
-    fn outside(&self, first: i64, last: i64) -> Found {
-        let datapath = self.designs[1].datapath();
-        let logic = datapath.logic();
-        let mut requests = datapath.requests::<REQUESTS, REQUESTS>();
-        requests.addresses = [self.addresses[1]; REQUESTS];
-        let mut found = Found::default();
-        for begin in (first..=last).step_by(REQUESTS) {
-            let count = REQUESTS.min((last - begin + 1) as usize);
-            for (x, place) in (begin..).zip(&mut requests.xs) {
-                *place = x;
-            }
-            logic.evaluate(datapath, &mut requests, 0);
-            for (index, &intensity) in requests.intensities().iter().enumerate().take(count) {
-                if intensity == 0 && requests.status(index).contains(Status::OUT_OF_DOMAIN) {
-                    found.refused += 1;
-                } else {
-                    found.answered = found.answered.or(Some(begin + index as i64));
-                }
-            }
-        }
-        debug_assert!(self.guarded);
-        found
-    }
-
-    fn part(&self, row: &Row, found: &Found) -> Part {
-        let Found { points, differing, greatest, refused, .. } = *found;
-        let (first, last) = self.domain;
-        let (n, least) = (row.demand.exponent, row.demand.least);
-        Part { n, least, first, last, points, differing, greatest, refused }
-    }
 }
 
 impl Certificate {

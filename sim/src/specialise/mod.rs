@@ -5,19 +5,22 @@
 //! | `demand.rs`, `tile.rs`, `space.rs` | for each exponent the interval of x that the picture presents, proved |
 //! | `derive.rs` | the configuration that keeps what these need, its points where they were |
 //! | `codes.rs` | the same with fewer output bits, where display codes may differ |
-//! | `certificate.rs` | every (n, x) through both; sealed, and checked again |
+//! | `compare.rs` | every (n, x) through both |
+//! | `certificate.rs` | what was found; sealed, and checked by doing it again |
 //! | `figures.rs` | what was left out, and why |
 
 mod certificate;
 mod codes;
+mod compare;
 mod demand;
 mod derive;
 mod figures;
 mod space;
 mod tile;
 
-pub use certificate::{Certificate, Display, Part, Proved, Refused, certify};
+pub use certificate::{Certificate, Display, Part, Proved, Refused};
 pub use codes::{ReduceError, pixels_outside, reduce};
+pub use compare::certify;
 pub use demand::{Demand, demands};
 pub use derive::{Row, SpecialiseError, derive, is_guarded, rows};
 pub use figures::{LeftOut, left_out};

@@ -12,7 +12,7 @@ use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
 use blysk_tests::rtl::{Failure, failed};
-use blysk_tests::rtl::{fusesoc, netlist_parts, waves};
+use blysk_tests::rtl::{fusesoc, netlist_parts, specialised, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -48,6 +48,9 @@ const SMALL: [(&str, Strategy, &str); 4] = [
             [{"n": 2, "least": 0.75}, {"n": 5, "least": 0.9}, {"n": 16, "least": 0.97}]}"#,
     ),
 ];
+
+/// Scenes whose own hardware is compared like a preset: one that never leaves the epicentre, one of small exponents.
+const SCENES: [&str; 2] = ["close_up", "low_exponents"];
 
 /// Its c3 is 0 for every n, so it has a multiplier less. Only its netlist is looked at.
 const TWO_MULTIPLIERS: &str = r#"{"name": "quadratic", "method": "quadratic", "exponents": "1..=16",
@@ -99,7 +102,7 @@ fn run() -> Result<Totals, Failure> {
     let names: Vec<&str> = simulators.iter().map(|simulator| simulator.name.as_str()).collect();
     println!("{}", names.join(", "));
     println!(
-        "{:<12} {:<18} {:>9} {:>10} {:>13}",
+        "{:<14} {:<18} {:>9} {:>10} {:>13}",
         "preset", "simulator", "vectors", "cycles", "compared"
     );
     let presets = presets::ALL.par_iter().map(|preset| {
@@ -111,12 +114,18 @@ fn run() -> Result<Totals, Failure> {
         }
         everything(&emitted, preset.name, &simulators, true)
     });
+    let scenes = SCENES.par_iter().map(|scene| {
+        let design = specialised::of_paper(scene)?;
+        let emitted = emit(&design, scene, Strategy::Mixed, VECTORS)?;
+        everything(&emitted, scene, &simulators, true)
+    });
     let small = SMALL.par_iter().map(|&(name, strategy, json)| {
         let design = design(json)?;
         let emitted = emit(&design, name, strategy, 0)?;
         everything(&emitted, name, &simulators, false)
     });
     let total: Totals = presets
+        .chain(scenes)
         .chain(small)
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
@@ -129,7 +138,7 @@ fn run() -> Result<Totals, Failure> {
 
 fn parts(emitted: &Emitted<'_>, name: &str) -> Result<(), Failure> {
     let (multipliers, flip_flops) = netlist_parts::check(emitted)?;
-    println!("{name:<12} netlist (Yosys): {multipliers} multipliers, {flip_flops} flip-flops");
+    println!("{name:<14} netlist (Yosys): {multipliers} multipliers, {flip_flops} flip-flops");
     Ok(())
 }
 
@@ -156,7 +165,7 @@ fn everything(
         }
         if index == 1 {
             let waves = waves::compare(emitted, simulator)?;
-            println!("{name:<12} waves (VCD, FST) {:>22} {:>13}", waves.edges, waves.values);
+            println!("{name:<14} waves (VCD, FST) {:>22} {:>13}", waves.edges, waves.values);
             totals.registers += waves.values;
         }
         // The long run is in the first Verilator; the others show that it is the same there.
@@ -242,7 +251,7 @@ fn registers(
 
 fn show(name: &str, simulator: &Simulator, totals: &Totals) {
     let Totals { vectors, cycles, registers, .. } = totals;
-    println!("{name:<12} {:<18} {vectors:>9} {cycles:>10} {registers:>13}", simulator.name);
+    println!("{name:<14} {:<18} {vectors:>9} {cycles:>10} {registers:>13}", simulator.name);
 }
 
 /// Every planted fault must be reported, and named.

@@ -6,6 +6,7 @@ pub mod fusesoc;
 pub mod mutants;
 pub mod netlist_parts;
 pub mod simulators;
+pub mod specialised;
 pub mod waves;
 pub mod workspace;
 
