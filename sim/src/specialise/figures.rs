@@ -59,7 +59,12 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<Left
     let ranks = |design: &Design| design.datapath().rank_count() as u64;
     add("latency, cycles", &ranks, "the longer of polynomial and divider".to_owned());
     let input = |design: &Design| u64::from(design.config().input.width());
-    add("x bits", &input, "stay: the same x comes in".to_owned());
+    let outside = if specialised.datapath().front_end().guarded {
+        "stay: an x outside must be seen to be refused"
+    } else {
+        "stay: the same x comes in"
+    };
+    add("x bits", &input, outside.to_owned());
     let output = |design: &Design| u64::from(design.config().output.width());
     add("intensity bits", &output, output_reason(source, specialised));
     list.extend(formats(source, specialised));
