@@ -240,7 +240,7 @@ def main():
         for device in DEVICES:
             r = row(name, device, rtl, sources)
             rows.append(r)
-            print(f"{name:16}{device:12}{r['luts']:6} LUTs{r['flip_flops']:6} FF{r['dsp_blocks']:4} DSP"
+            print(f"{name:20}{device:12}{r['luts']:6} LUTs{r['flip_flops']:6} FF{r['dsp_blocks']:4} DSP"
                   f"{r['block_rams']:4} RAM  {r['f_max_mhz'] or r['fits']}", flush=True)
             wanted = REQUIRED_DSP.get((name, device), r["dsp_blocks"])
             if r["dsp_blocks"] != wanted:
