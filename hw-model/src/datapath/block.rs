@@ -269,13 +269,7 @@ impl Lines {
             digits[lane] = keep_digits.keep(begun.digits);
         }
         for digit in 0..divider.digit_count {
-            for ((&divisor, remainder), digits) in
-                divisors.iter().zip(&mut remainders).zip(&mut digits)
-            {
-                let next =
-                    divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
-                (*remainder, *digits) = (next.remainder, next.digits);
-            }
+            divider.digit_of_all(&divisors, &mut remainders, &mut digits);
             if !K::WHOLE && divider.ends_stage(digit) {
                 let stage = 1 + digit / divider.digits_per_stage;
                 let (keep_remainder, keep_digits) = keep.behind_stage(stage as usize);

@@ -314,12 +314,7 @@ impl Lines {
             digits[request] = begun.digits;
         }
         for _ in 0..divider.digit_count {
-            let lanes = divisors.iter().zip(&mut remainders).zip(&mut digits);
-            for ((&divisor, remainder), digits) in lanes {
-                let next =
-                    divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
-                (*remainder, *digits) = (next.remainder, next.digits);
-            }
+            divider.digit_of_all(&divisors, &mut remainders, &mut digits);
         }
         let one = L::from_bits(output_one);
         for request in 0..W {

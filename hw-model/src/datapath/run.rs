@@ -209,12 +209,7 @@ impl Lines {
                 *digits = D::from_bits(begun.digits.to_bits());
             }
             for _ in 0..divider.digit_count {
-                let lanes = divisors.iter().zip(&mut remainders).zip(&mut digits);
-                for ((&divisor, remainder), digits) in lanes {
-                    let next =
-                        divider.digit(Division { divisor, remainder: *remainder, digits: *digits });
-                    (*remainder, *digits) = (next.remainder, next.digits);
-                }
+                divider.digit_of_all(&divisors, &mut remainders, &mut digits);
             }
             let lanes = divisors.iter().zip(&remainders).zip(&digits);
             for (intensity, ((&divisor, &remainder), &digits)) in chunk.iter_mut().zip(lanes) {

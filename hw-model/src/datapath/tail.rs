@@ -137,6 +137,15 @@ impl Divider {
         }
     }
 
+    /// One quotient bit of many divisions side by side, as many as the shortest list has.
+    #[inline(always)]
+    pub fn digit_of_all<L: Lane>(&self, divisors: &[L], remainders: &mut [L], digits: &mut [L]) {
+        for ((&divisor, remainder), digits) in divisors.iter().zip(remainders).zip(digits) {
+            let next = self.digit(Division { divisor, remainder: *remainder, digits: *digits });
+            (*remainder, *digits) = (next.remainder, next.digits);
+        }
+    }
+
     /// The quotient bits of stage `index` (0 is the first); the last stage may find fewer.
     #[inline(always)]
     pub fn digit_stage<L: Lane>(&self, index: u32, division: Division<L>) -> Division<L> {
