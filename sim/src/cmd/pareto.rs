@@ -47,7 +47,7 @@ pub(super) struct Args {
     /// Leave out run time, which is another one each time: what remains is the same bytes run after run.
     #[arg(long)]
     no_timing: bool,
-    /// Rounds of timing, in each of which every contender has a turn.
+    /// Rounds of timing, in each of which every contender has a turn; 15 at least.
     #[arg(long, value_name = "COUNT", default_value_t = 101, conflicts_with = "no_timing",
           value_parser = clap::value_parser!(u64).range(FEWEST_ROUNDS..=100_000))]
     rounds: u64,

@@ -8,6 +8,7 @@ use kuva::render::annotations::ReferenceLine as DrawnLine;
 use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
+use kuva::render::render_utils::generate_ticks_log;
 
 use super::axis::{Scale, tick_label};
 use super::chart::{Bounds, Chart, Mark, Series};
@@ -102,8 +103,23 @@ fn fitted(chart: &Chart, layout: Layout) -> Layout {
     let height = style::size(chart.size).1;
     let trial = 2.0 * height;
     let layout = layout.with_height(trial);
-    let area = ComputedLayout::from_layout(&layout).plot_height();
-    layout.with_height(trial - area + height)
+    let computed = ComputedLayout::from_layout(&layout);
+    let area = computed.plot_height();
+    let layout = layout.with_height(trial - area + height);
+    // The backend leaves room for its own words at logarithmic ticks, which are shorter than ours.
+    let lacking = widest_tick(chart, &computed) - computed.y_tick_label_px;
+    if chart.y_axis.scale == Scale::Linear || lacking <= 0.0 {
+        return layout;
+    }
+    layout
+        .with_force_margins(computed.margin_left + lacking, computed.margin_right)
+        .with_y_label_offset(-lacking, 0.0)
+}
+
+fn widest_tick(chart: &Chart, computed: &ComputedLayout) -> f64 {
+    let ticks = generate_ticks_log(computed.y_range.0, computed.y_range.1);
+    let width = |tick| words::width(&tick_label(tick, chart.y_axis.scale), style::SMALL_SIZE);
+    ticks.into_iter().map(width).fold(0.0, f64::max)
 }
 
 fn drawn((index, series): (usize, &Series)) -> Plot {

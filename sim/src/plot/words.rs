@@ -16,6 +16,8 @@ fn em(letter: char) -> f64 {
         'A'..='Z' => 0.79,
         '+' | '<' | '=' | '>' | '~' | '#' | '_' | '"' | '^' => 0.84,
         letter if letter.is_ascii() => 0.65,
+        '·' | '⁰'..='⁹' | '¹' | '²' | '³' => 0.42,
+        '⁻' => 0.55,
         // Greek and superscript letters are narrower, Cyrillic ones nearly as wide as this.
         _ => 1.0,
     }

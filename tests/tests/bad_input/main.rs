@@ -8,6 +8,7 @@ mod configurations;
 mod options;
 mod places;
 mod scenes;
+mod searches;
 mod stimulus;
 
 use blysk_tests::cli::SMALL;

@@ -20,7 +20,7 @@ pub fn differences(
     let (had, has) = (names(kept), names(&made.contenders));
     if had != has {
         return vec![format!(
-            "the contenders were {}; they are {}",
+            "the contenders were {}; they are {}: check with the table's own --exponents, or make it again",
             had.join(", "),
             has.join(", ")
         )];
@@ -28,9 +28,7 @@ pub fn differences(
     let mut found = Vec::new();
     for ((kept, made), contender) in kept.iter().zip(&made.contenders).zip(contenders) {
         let name = &kept.contender;
-        if costs(kept) != costs(made) {
-            found.push(format!("{name}: cost {:?}, now {:?}", costs(kept), costs(made)));
-        }
+        found.extend(costs(kept).differences(&costs(made)).map(|d| format!("{name}: {d}")));
         for (place, kept, made) in [
             ("epicentre", Place::epicentre(kept), Place::epicentre(made)),
             ("[0, 1]", Place::whole(kept), Place::whole(made)),
@@ -43,24 +41,32 @@ pub fn differences(
     found
 }
 
-/// What follows from the configuration alone.
-#[derive(Debug, PartialEq)]
-struct Costs<'a> {
-    storage_bits: u64,
-    latency: Option<u64>,
-    multipliers: Option<&'a str>,
-    divider_bits: Option<u64>,
-    what: &'a str,
+/// What follows from the configuration alone, each with what it is called in a sentence.
+struct Costs([(&'static str, String); 5]);
+
+impl Costs {
+    /// A sentence for each that is another one.
+    fn differences<'a>(&'a self, made: &'a Self) -> impl Iterator<Item = String> + 'a {
+        self.0.iter().zip(&made.0).filter(|(kept, made)| kept != made).map(
+            |((name, kept), (_, made))| {
+                format!(
+                    "{name} of the table: {kept}, now: {made}; use the table's own --exponents and --input, or \
+                     make the table again"
+                )
+            },
+        )
+    }
 }
 
-fn costs(row: &Row) -> Costs<'_> {
-    Costs {
-        storage_bits: row.storage_bits,
-        latency: row.latency,
-        multipliers: row.multipliers.as_deref(),
-        divider_bits: row.divider_bits,
-        what: &row.what,
-    }
+fn costs(row: &Row) -> Costs {
+    let or_none = |bits: Option<u64>| bits.map_or_else(|| "none".to_owned(), |b| b.to_string());
+    Costs([
+        ("bits of table or ROM", row.storage_bits.to_string()),
+        ("latency", or_none(row.latency)),
+        ("multipliers", row.multipliers.clone().unwrap_or_else(|| "none".to_owned())),
+        ("bits of the divider", or_none(row.divider_bits)),
+        ("description", row.what.clone()),
+    ])
 }
 
 /// A greatest error and where it is.
@@ -86,7 +92,7 @@ impl Place {
                 .map(|error| format!("no error is given, and there is one of {error}"));
         };
         let Some(row) = inputs.exponents.position(n) else {
-            return Some(format!("n = {n} is not measured any more"));
+            return Some(format!("n = {n} is not measured now; use the table's own --exponents"));
         };
         let bits = (x / inputs.format.ulp()) as i64;
         if inputs.real(bits) != x || !(0..=inputs.greatest()).contains(&bits) {
@@ -142,7 +148,11 @@ mod tests {
         let see = |kept: &[Row]| differences(kept, &part, &contenders, &inputs(7));
         assert_eq!(see(&all.contenders), Vec::<String>::new());
         for (spoil, said) in [
-            ((|row| row.storage_bits += 1) as fn(&mut Row), "cost"),
+            ((|row| row.storage_bits += 1) as fn(&mut Row), "bits of table or ROM of the table: "),
+            (
+                |row| row.latency = Some(99),
+                "latency of the table: 99, now: none; use the table's own --exponents",
+            ),
             (|row| row.whole_worst = row.whole_worst.map(|e| e * 1.001), "now it is"),
             (|row| row.whole_worst_x = row.epicentre_worst_x.map(|_| 0.0), "now it is"),
             (|row| row.epicentre_worst_x = Some(0.3), "is not one of"),

@@ -3,6 +3,8 @@ use resvg::usvg::{Group, Node, Rect, Tree};
 
 use super::*;
 
+mod names;
+
 /// A rising curve, an odd one above it, and a bound.
 fn chart() -> Chart {
     let exponents = || (1..=256_i32).map(f64::from);

@@ -8,24 +8,21 @@
 //! An image has 8 bits: the intensity is rounded to 0..=255, and the largest step of that between
 //! neighbouring x is what the finest gradient on a screen would show.
 
-use hw_model::datapath::front_end::Region;
-use hw_model::datapath::{Block, Datapath};
+mod scan;
+
+use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::quantise::real;
 use hw_model::rom::FieldName;
-use multiversion::multiversion;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use self::scan::{Scan, Seam};
 use crate::analysis::error_report::Progress;
 
-/// Pairs that go through the pipeline together.
-const BLOCK: i64 = 1024;
 /// Pairs that make one piece of work for a thread.
 const PIECE: i64 = 1 << 18;
-/// The greatest intensity of an image.
-const WHITE: i128 = 255;
 
 /// What one exponent's output does as x rises by an ulp at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -115,7 +112,7 @@ pub fn seam_report(design: &Design, addresses: &[u32], progress: &dyn Progress) 
             };
             let fraction = design.config().output.fraction_bits();
             let hand_over = design.datapath().row(address).get(FieldName::HandOver);
-            let mut scan = scan(evaluate, first, last, fraction);
+            let mut scan = scan::scan(evaluate, first, last, fraction);
             scan.see_segments(design.datapath(), address, hand_over, (first, last));
             progress.advance(scan.pairs);
             scan
@@ -181,239 +178,13 @@ fn hand_over(design: &Design, address: u32, seam: &Seam) -> HandOver {
     }
 }
 
-/// A greatest size and the x at which it is met first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Peak {
-    size: i64,
-    x: i64,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Seam {
-    from: Region,
-    to: Region,
-    /// The first x of the upper part.
-    x: i64,
-    jump: i64,
-    image_step: i64,
-}
-
-/// What was seen of a row so far.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-struct Scan {
-    pairs: u64,
-    falls: u64,
-    fall: Option<Peak>,
-    rise: Option<Peak>,
-    image: Option<Peak>,
-    image_falls: u64,
-    hand_overs: Vec<Seam>,
-}
-
-fn raise(peak: &mut Option<Peak>, size: i64, x: i64) {
-    if size > peak.map_or(0, |peak| peak.size) {
-        *peak = Some(Peak { size, x });
-    }
-}
-
-impl Scan {
-    /// Both; `later` has the greater x.
-    fn and(mut self, later: Self) -> Self {
-        self.pairs += later.pairs;
-        self.falls += later.falls;
-        self.image_falls += later.image_falls;
-        for (peak, later) in [
-            (&mut self.fall, later.fall),
-            (&mut self.rise, later.rise),
-            (&mut self.image, later.image),
-        ] {
-            if let Some(later) = later {
-                raise(peak, later.size, later.x);
-            }
-        }
-        self.hand_overs.extend(later.hand_overs);
-        self
-    }
-}
-
-/// Scans the pairs of neighbouring x from `first` to `last`, both included.
-fn scan(
-    mut evaluate: impl FnMut(&[i64], &mut Block),
-    first: i64,
-    last: i64,
-    fraction: u32,
-) -> Scan {
-    let mut scan = Scan::default();
-    let mut block = Block::default();
-    let mut xs = Vec::with_capacity(BLOCK as usize + 1);
-    let mut from = first;
-    while from < last {
-        let to = (from + BLOCK).min(last);
-        xs.clear();
-        xs.extend(from..=to);
-        evaluate(&xs, &mut block);
-        scan.see(&block, from, fraction);
-        from = to;
-    }
-    scan
-}
-
-impl Scan {
-    /// Sees the answers to x, x + 1, … in a block.
-    fn see(&mut self, block: &Block, first: i64, fraction: u32) {
-        let ys = &block.intensities;
-        let Some(pairs) = ys.len().checked_sub(1) else { return };
-        self.pairs += pairs as u64;
-        let differences = differences(ys);
-        self.falls += differences.falls;
-        let place = |wanted: i64| {
-            let found = ys.windows(2).position(|pair| pair[1] - pair[0] == wanted);
-            first + 1 + found.unwrap_or(0) as i64
-        };
-        if -differences.least > self.fall.map_or(0, |peak| peak.size) {
-            self.fall = Some(Peak { size: -differences.least, x: place(differences.least) });
-        }
-        if differences.greatest > self.rise.map_or(0, |peak| peak.size) {
-            self.rise = Some(Peak { size: differences.greatest, x: place(differences.greatest) });
-        }
-        self.see_image(ys, first, fraction, &differences);
-        if block.regions.windows(2).any(|pair| pair[0] != pair[1]) {
-            self.see_regions(block, first, fraction);
-        }
-    }
-
-    /// A step of d ulp is one of at most d·255/2^f + 1 in 8 bits: most blocks need no look.
-    fn see_image(&mut self, ys: &[i64], first: i64, fraction: u32, differences: &Differences) {
-        let largest = i128::from(differences.greatest.max(-differences.least));
-        let most = ((largest * WHITE) >> fraction) as i64 + 1;
-        let falls = differences.falls > 0;
-        if !falls && most <= self.image.map_or(0, |peak| peak.size) {
-            return;
-        }
-        for (index, pair) in ys.windows(2).enumerate() {
-            let step = byte(pair[1], fraction) - byte(pair[0], fraction);
-            self.image_falls += u64::from(step < 0);
-            raise(&mut self.image, step.abs(), first + 1 + index as i64);
-        }
-    }
-
-    fn see_regions(&mut self, block: &Block, first: i64, fraction: u32) {
-        let ys = &block.intensities;
-        for (index, pair) in block.regions.windows(2).enumerate() {
-            if pair[0] != pair[1] {
-                self.hand_overs.push(Seam {
-                    from: pair[0],
-                    to: pair[1],
-                    x: first + 1 + index as i64,
-                    jump: ys[index + 1] - ys[index],
-                    image_step: byte(ys[index + 1], fraction) - byte(ys[index], fraction),
-                });
-            }
-        }
-    }
-}
-
-impl Scan {
-    /// A hand-over between segments is within the polynomial's region, and is looked at by itself.
-    fn see_segments(
-        &mut self,
-        datapath: &Datapath,
-        address: u32,
-        hand_over: i64,
-        (first, last): (i64, i64),
-    ) {
-        // The pair whose greater x it is belongs to one piece only.
-        if hand_over <= first || hand_over > last {
-            return;
-        }
-        let [below, above] = [hand_over - 1, hand_over].map(|x| datapath.evaluate(address, x));
-        if below.region == Region::Polynomial && above.region == Region::Polynomial {
-            let fraction = datapath.formats().output.fraction_bits();
-            let at = self.hand_overs.partition_point(|seam| seam.x < hand_over);
-            let seam = Seam {
-                from: below.region,
-                to: above.region,
-                x: hand_over,
-                jump: above.intensity - below.intensity,
-                image_step: byte(above.intensity, fraction) - byte(below.intensity, fraction),
-            };
-            self.hand_overs.insert(at, seam);
-        }
-    }
-}
-
-/// An intensity as an image has it: 0 to 255, rounded to the nearest, a tie up.
-fn byte(intensity: i64, fraction: u32) -> i64 {
-    let scaled = i128::from(intensity) * WHITE;
-    ((scaled + (1_i128 << fraction >> 1)) >> fraction) as i64
-}
-
-struct Differences {
-    least: i64,
-    greatest: i64,
-    falls: u64,
-}
-
-/// Compiled for the vector widths named here, the machine's own chosen at run time.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn differences(ys: &[i64]) -> Differences {
-    let mut found = Differences { least: 0, greatest: 0, falls: 0 };
-    for (below, above) in ys.iter().zip(&ys[1..]) {
-        let difference = above - below;
-        found.least = found.least.min(difference);
-        found.greatest = found.greatest.max(difference);
-        found.falls += u64::from(difference < 0);
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::atomic::{AtomicU64, Ordering};
 
     use hw_model::config::Config;
-    use proptest::prelude::*;
 
     use super::*;
-
-    /// Rises by one every 7 x, but for a fall of `depth` at the pair that ends in `at`.
-    fn planted(at: i64, depth: i64) -> impl FnMut(&[i64], &mut Block) {
-        move |xs, block| {
-            let y = |x: i64| x / 7 + 1000 - if x >= at { depth } else { 0 };
-            block.intensities = xs.iter().copied().map(y).collect();
-            let region = |&x: &i64| if x < 40 { Region::Zero } else { Region::Polynomial };
-            block.regions = xs.iter().map(region).collect();
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn a_planted_fall_is_found(last in 2_i64..5000, part in 0.0_f64..1.0, depth in 2_i64..99) {
-            let at = 1 + (part * (last - 1) as f64) as i64;
-            let seen = scan(planted(at, depth), 0, last, 15);
-            prop_assert_eq!((seen.pairs, seen.falls), (last as u64, 1));
-            let rise = i64::from(at % 7 == 0);
-            prop_assert_eq!(seen.fall, Some(Peak { size: depth - rise, x: at }));
-            let seam = seen.hand_overs.first().map(|seam| seam.x);
-            prop_assert_eq!(seam, (last >= 40).then_some(40));
-            prop_assert!(seen.hand_overs.len() <= 1);
-        }
-
-        /// Cut into pieces anywhere, it is the same scan.
-        #[test]
-        fn pieces_make_the_whole(last in 2_i64..4000, part in 0.0_f64..1.0, at in 1_i64..4000) {
-            let middle = (part * last as f64) as i64;
-            let whole = scan(planted(at, 5), 0, last, 12);
-            let pieces = scan(planted(at, 5), 0, middle, 12).and(scan(planted(at, 5), middle, last, 12));
-            prop_assert_eq!(pieces, whole);
-        }
-    }
-
-    #[test]
-    fn bytes_are_those_of_an_image() {
-        assert_eq!([0, 64, 65, 1 << 14, 1 << 15].map(|bits| byte(bits, 15)), [0, 0, 1, 128, 255]);
-        assert_eq!((byte(1, 1), byte(0, 1), byte(1 << 62, 62)), (128, 0, 255));
-    }
 
     /// Against every x evaluated on its own, rank by rank.
     #[test]
@@ -454,5 +225,60 @@ mod tests {
                 assert_eq!(seam.x_bits, row.cut, "a part ends at the cut");
             }
         }
+    }
+
+    /// Within the polynomial's region no part tells of the hand-over: it is found by the ROM's word alone.
+    #[test]
+    fn two_segments_meet_at_a_seam_of_their_own() {
+        let design = two_segments();
+        let report = seam_report(&design, &[0, 1, 2], &AtomicU64::new(0));
+        let found: Vec<(f64, &str, i64)> =
+            report.hand_overs.iter().map(|seam| (seam.n, seam.from, seam.x_bits)).collect();
+        let rows = design.rows();
+        // n = 2 is a cubic itself, down to x = 0: nothing is cut off.
+        let expected = [
+            (2.0, "second segment", rows[0].hand_over),
+            (8.0, "zero", rows[1].cut),
+            (8.0, "second segment", rows[1].hand_over),
+            (33.0, "zero", rows[2].cut),
+            (33.0, "second segment", rows[2].hand_over),
+        ];
+        assert_eq!(found, expected);
+        assert_eq!(report.rows.iter().map(|row| row.hand_overs).collect::<Vec<_>>(), [1, 2, 2]);
+        for seam in &report.hand_overs {
+            let row = rows.iter().position(|row| row.exponent == seam.n).unwrap() as u32;
+            let y = |x| design.datapath().evaluate(row, x).intensity;
+            assert_eq!(seam.jump_ulp, y(seam.x_bits) - y(seam.x_bits - 1), "{seam:?}");
+            assert!(seam.jump_ulp.abs() <= 1, "{seam:?}");
+        }
+        // What answers below the hand-over is near x^n, as the first segment gone on with would not be.
+        for (address, row) in rows.iter().enumerate() {
+            for x in [row.cut.max(1), row.cut.midpoint(row.hand_over), row.hand_over - 1] {
+                let y = design.datapath().evaluate(address as u32, x).intensity as f64;
+                let exact = phong(row.exponent, real(x, design.config().input)) * 1024.0;
+                assert!((y - exact).abs() < 4.0, "n = {}, x = {x}: {y}, {exact}", row.exponent);
+            }
+        }
+    }
+
+    /// However [0, 1] is cut into pieces, one of them has the hand-over.
+    #[test]
+    fn a_hand_over_of_segments_belongs_to_one_piece() {
+        let design = two_segments();
+        let hand_over = design.rows()[1].hand_over;
+        let seen = |first, last| {
+            let mut scan = Scan::default();
+            scan.see_segments(design.datapath(), 1, hand_over, (first, last));
+            scan.hand_overs.iter().map(|seam| seam.x).collect::<Vec<_>>()
+        };
+        assert_eq!(seen(0, hand_over - 1), Vec::<i64>::new());
+        assert_eq!(seen(hand_over - 1, hand_over), [hand_over]);
+        assert_eq!(seen(hand_over, 1 << 16), Vec::<i64>::new());
+    }
+
+    fn two_segments() -> Design {
+        let text = r#"{"name": "two", "method": "minimax", "segments": 2, "cut": "balanced", "tail": "zero",
+            "form": "centred", "exponents": "2,8,33", "input": "UQ1.16", "output": "UQ1.10"}"#;
+        Design::new(Config::from_json(text).unwrap()).unwrap()
     }
 }
