@@ -173,8 +173,7 @@ mod tests {
         Scene::from_json(&text, &mut |_| Ok(String::new())).unwrap()
     }
 
-    fn holds(scene: &Scene, column: f64, row: f64) {
-        let demands = demands(scene);
+    fn holds(scene: &Scene, demands: &[Demand], column: f64, row: f64) {
         let ray = ray(&scene.view, &scene.image, column, row);
         for surface in &scene.surfaces {
             let Some(hit) = meet(&ray, &surface.shape, f64::INFINITY) else { continue };
@@ -200,7 +199,7 @@ mod tests {
             (x, y, z) in (-6.0..6.0, 0.2..6.0, 3.0..9.0),
             field in 0.5..60.0,
             phong in any::<bool>(),
-            places in prop::collection::vec((0.0..40.0, 0.0..30.0), 40)
+            places in prop::collection::vec((0.0..40.0, 0.0..30.0), 400)
         ) {
             let angle = if phong { "phong" } else { "blinn" };
             let scene = scene(&format!(
@@ -209,8 +208,9 @@ mod tests {
                 {{"sphere": {{"centre": [0, 0, 0], "radius": 1.3, "material": "a"}}}},
                 {{"plane": {{"point": [0, -1, 0], "normal": [0, 1, 0.1], "material": "b"}}}}]"#
             ));
+            let demands = demands(&scene);
             for (column, row) in places {
-                holds(&scene, column, row);
+                holds(&scene, &demands, column, row);
             }
         }
     }
