@@ -7,7 +7,7 @@
 
 use multiversion::multiversion;
 
-use crate::rom::{FieldName, Row};
+use crate::rom::{FieldName, Place, Row};
 use crate::rounding::{Lane, Rounding};
 
 use super::block::Lines;
@@ -87,7 +87,11 @@ impl Fetched for Row {
 const FEW: usize = 8;
 
 impl<const W: usize> Words<W> {
-    const NONE: Self = Self { fields: [[0; W]; FieldName::ALL.len()], known: [0; W], all_of: None };
+    /// Of one row: what is the same in all rows need not be collected again.
+    fn of(row: &Row) -> Self {
+        let fields = FieldName::ALL.map(|name| [row.get(name); W]);
+        Self { fields, known: [0; W], all_of: None }
+    }
 
     /// The one word of all these addresses, or none and their words collected.
     #[inline(always)]
@@ -114,9 +118,11 @@ impl<const W: usize> Words<W> {
             *row = found.unwrap_or(row);
         }
         for field in datapath.rom.layout().fields() {
-            let values = &mut self.fields[field.name as usize];
-            for (value, row) in values.iter_mut().zip(rows) {
-                *value = row.get(field.name);
+            if let Place::Stored { .. } = field.place {
+                let values = &mut self.fields[field.name as usize];
+                for (value, row) in values.iter_mut().zip(rows) {
+                    *value = row.get(field.name);
+                }
             }
         }
     }
@@ -133,7 +139,7 @@ impl Datapath {
             intensities: [0; N],
             status: [0; N],
             regions: [0; N],
-            words: Words::NONE,
+            words: Words::of(self.row_at(0)),
         })
     }
 }
