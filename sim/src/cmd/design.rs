@@ -25,8 +25,9 @@ use crate::analysis::sizing::{
 /// ranked by multiplier bits (the widths of both operands, multiplied, of every multiplier), then ROM bits, then
 /// latency, then register bits. The first few are narrowed bit by bit as far as the error allows, measured at
 /// every x of the range. What is printed is the least that was found, of which no register can lose a bit: every
-/// stated width gets two witnesses, an n and an x at which a fraction bit less, or an integer bit less, breaks the
-/// error or overflows. The configuration that --out writes states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
+/// register gets two witnesses, an n and an x at which a fraction bit less, or an integer bit less, breaks the
+/// error or overflows. t3 has the output's fraction bits, cut and hand-over those of x, with which they are compared:
+/// these are not narrowed. The configuration that --out writes states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
 /// print the witnesses.
 #[derive(ClapArgs)]
 #[command(
@@ -227,6 +228,9 @@ fn breaks(witness: &Witness) -> String {
         }
         Breaks::MoreRom(bits) => format!("{bits} ROM bits"),
         Breaks::NoSuchBit => "no such bit".to_owned(),
+        Breaks::Given("x") => "is compared with x".to_owned(),
+        Breaks::Given(place) => format!("the {place} has it"),
+        Breaks::Unproved => "no value; not proved".to_owned(),
     }
 }
 
@@ -265,13 +269,14 @@ fn witnesses(sized: &Sized) -> Rows {
         "bits",
         "in_format",
         "rom_bits",
+        "asked_by",
     ];
     let mut rows = Rows::new(&columns);
     for witness in &sized.witnesses {
         let (error, overflow) = match witness.breaks {
             Breaks::Error(error) => (Some(error), None),
             Breaks::Overflow { register, bits, format } => (None, Some((register, bits, format))),
-            Breaks::MoreRom(_) | Breaks::NoSuchBit => (None, None),
+            _ => (None, None),
         };
         rows.push(vec![
             witness.register.into(),
@@ -285,6 +290,10 @@ fn witnesses(sized: &Sized) -> Rows {
             overflow.map_or(Cell::None, |(.., format)| format.to_string().into()),
             match witness.breaks {
                 Breaks::MoreRom(bits) => Cell::Integer(bits as i64),
+                _ => Cell::None,
+            },
+            match witness.breaks {
+                Breaks::Given(place) => place.into(),
                 _ => Cell::None,
             },
         ]);

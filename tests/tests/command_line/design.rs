@@ -104,7 +104,10 @@ fn every_witness_testifies() {
         let (design, rows) = designed(&bench, asked);
         let stated = serde_json::to_value(design.widths()).unwrap();
         let stated = stated.as_object().unwrap();
+        let (rows, following): (Vec<_>, Vec<_>) =
+            rows.into_iter().partition(|row| stated.contains_key(&row["register"]));
         assert_eq!(rows.len(), 2 * stated.len(), "{asked}: two for each register");
+        follow(&design, &following);
         for row in &rows {
             let (register, fraction) = (row["register"].as_str(), row["fewer"] == "fraction");
             assert_eq!(stated[register], row["format"], "{row:?}");
@@ -139,6 +142,45 @@ fn every_witness_testifies() {
         }
     }
     assert!(errors > 15 && overflows > 15, "{errors} errors, {overflows} overflows");
+}
+
+/// t3, and what the ROM holds beside coefficients: their first bits are needed, and their last ones asked for.
+fn follow(design: &Design, rows: &[BTreeMap<String, String>]) {
+    let formats = design.datapath().formats();
+    let expected: Vec<(&str, QFormat, &str)> = [
+        ("t3", formats.polynomial.as_ref().map(|f| f.t3), "output"),
+        ("cut", formats.cut, "x"),
+        ("shift", formats.shift, ""),
+        ("hand_over", formats.hand_over, "x"),
+        ("shift_outer", formats.shift_outer, ""),
+    ]
+    .into_iter()
+    .filter_map(|(name, format, place)| Some((name, format?, place)))
+    .collect();
+    assert_eq!(rows.len(), 2 * expected.len(), "{rows:?}");
+    for (pair, (register, format, place)) in rows.chunks(2).zip(expected) {
+        let [last, first] = pair else { panic!("two for each") };
+        assert_eq!((last["register"].as_str(), last["asked_by"].as_str()), (register, place));
+        assert_eq!((first["register"].as_str(), &first["format"]), (register, &format.to_string()));
+        if first["n"].is_empty() {
+            // All rows have a 0 there, or the range that was proved is wider than what is taken.
+            assert!(register == "t3" || format.width() == 1, "{first:?}");
+            continue;
+        }
+        let address = design.rom().address_of(number(first, "n"));
+        let passage = design.datapath().passage(address, number(first, "x_bits") as i64);
+        let row = |name| passage[0].row.get(name);
+        let bits = match register {
+            "t3" => passage[4].t3,
+            "cut" => row(FieldName::Cut),
+            "shift" => row(FieldName::Shift),
+            "hand_over" => row(FieldName::HandOver),
+            _ => row(FieldName::ShiftOuter),
+        };
+        let less: QFormat = first["in_format"].parse().unwrap();
+        assert_eq!(bits as f64, number(first, "bits"), "{first:?}");
+        assert!(!less.holds(bits.into()) || less == format && bits != 0, "{first:?}");
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! The error of the result is not proved register by register but measured at every x of the range.
 
 mod candidates;
+mod following;
 mod judge;
 mod narrow;
 mod registers;
@@ -206,7 +207,8 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
     let Some(worst) = worst.filter(|worst| worst.error <= request.error) else {
         return Err(nothing(request, built));
     };
-    let witnesses = witness::witnesses(&base, judge, &state, &AtomicU64::new(0))?;
+    let mut witnesses = witness::witnesses(&base, judge, &state, &AtomicU64::new(0))?;
+    witnesses.extend(following::witnesses(&design)?);
     Ok(Sized { design, hardware: state.hardware, worst, ranking: ranked(built), witnesses })
 }
 

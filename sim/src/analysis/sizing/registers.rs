@@ -92,7 +92,7 @@ fn coefficient(design: &Design, power: usize) -> Option<Reach> {
 }
 
 /// One field over all rows, said of this x.
-fn field(design: &Design, name: FieldName, x: i64) -> Option<Reach> {
+pub fn field(design: &Design, name: FieldName, x: i64) -> Option<Reach> {
     let all = design.rom().rows().iter().zip(0..).map(|(row, address)| Extreme {
         bits: row.get(name),
         address,

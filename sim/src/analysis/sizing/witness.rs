@@ -1,5 +1,6 @@
 //! Why no register is narrower: for each of its ends one (n, x) at which a bit less fails.
 
+use hw_model::datapath::Signals;
 use hw_model::datapath::reach::{Extreme, Reach};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
@@ -38,6 +39,10 @@ pub enum Breaks {
     MoreRom(u64),
     /// There is no bit at this end, or the divider's dividend would be no integer.
     NoSuchBit,
+    /// This place was asked for: the output has it, or x, with which the register is compared.
+    Given(&'static str),
+    /// No value takes the bit; that none does in the ranges that were proved is another matter.
+    Unproved,
 }
 
 /// One register, one end.
@@ -57,7 +62,7 @@ pub struct Witness {
     pub breaks: Breaks,
 }
 
-/// Two witnesses for every register, each looked at again rank by rank before it is given.
+/// Two witnesses for every stated register, each looked at again rank by rank before it is given.
 ///
 /// # Errors
 /// When a register could be narrower after all, or a witness does not testify.
@@ -120,15 +125,9 @@ impl Court<'_> {
     ) -> Result<Witness, SizingError> {
         let (register, fewer) = (NAMES[index], Fewer::Integer);
         let silent = Witness { register, format, fewer, n: None, x: 0, breaks: Breaks::NoSuchBit };
-        let less = with_integer_less(format);
-        let extremes = [reach.greatest, reach.least];
-        let beyond = extremes.into_iter().find(|extreme| match less {
-            Some(less) => !less.holds(extreme.bits.into()),
-            None => extreme.bits != 0,
-        });
-        match beyond {
-            Some(extreme) => self.overflowing(own, silent, index, less.or(Some(format)), extreme),
-            None if less.is_none() => Ok(silent),
+        match a_bit_less(format, reach) {
+            Some((less, extreme)) => self.overflowing(own, silent, index, Some(less), extreme),
+            None if with_integer_less(format).is_none() => Ok(silent),
             None => Err(SizingError::Spare { register }),
         }
     }
@@ -142,16 +141,12 @@ impl Court<'_> {
         extreme: Extreme,
     ) -> Result<Witness, SizingError> {
         let Some(format) = format else { return Ok(silent) };
-        let row = &design.rows()[extreme.address as usize];
-        let greatest = design.datapath().front_end().greatest;
-        // A value that a part shows while it does not answer is had at some x all the same.
-        let places = extreme.x.map_or(vec![greatest, 0, (row.cut - 1).max(0)], |x| vec![x]);
-        let passage = |x| design.datapath().passage(extreme.address, x);
-        let x = places.into_iter().find(|&x| value(which, &passage(x)) == Some(extreme.bits));
+        let n = design.rows()[extreme.address as usize].exponent;
         let register = NAMES[which];
-        let Some(x) = x else { return Err(SizingError::Silent { register, n: row.exponent }) };
+        let x = seen_at(design, &extreme, |passage| value(which, passage));
+        let Some(x) = x else { return Err(SizingError::Silent { register, n }) };
         let breaks = Breaks::Overflow { register, bits: extreme.bits, format };
-        Ok(Witness { n: Some(row.exponent), x, breaks, ..silent })
+        Ok(Witness { n: Some(n), x, breaks, ..silent })
     }
 
     /// An error once more, rank by rank.
@@ -168,6 +163,32 @@ impl Court<'_> {
             Err(SizingError::Silent { register: witness.register, n })
         }
     }
+}
+
+/// The format with an integer bit less, and the value that it does not hold. Where nothing is left of it, that is any
+/// but 0.
+pub(super) fn a_bit_less(format: QFormat, taken: &Reach) -> Option<(QFormat, Extreme)> {
+    let less = with_integer_less(format);
+    let beyond = |extreme: &Extreme| match less {
+        Some(less) => !less.holds(extreme.bits.into()),
+        None => extreme.bits != 0,
+    };
+    let extreme = [taken.greatest, taken.least].into_iter().find(beyond)?;
+    Some((less.unwrap_or(format), extreme))
+}
+
+/// The x at which a register is seen to hold the value.
+pub(super) fn seen_at(
+    design: &Design,
+    extreme: &Extreme,
+    held: impl Fn(&[Signals]) -> Option<i64>,
+) -> Option<i64> {
+    let cut = design.rows()[extreme.address as usize].cut;
+    let greatest = design.datapath().front_end().greatest;
+    // A value that a part shows while it does not answer is had at some x all the same.
+    let places = extreme.x.map_or(vec![greatest, 0, (cut - 1).max(0)], |x| vec![x]);
+    let passage = |x| design.datapath().passage(extreme.address, x);
+    places.into_iter().find(|&x| held(&passage(x)) == Some(extreme.bits))
 }
 
 /// The first register that takes more than its format holds.
