@@ -23,6 +23,7 @@ mod keep;
 mod lanes;
 pub mod ranks;
 pub mod reach;
+mod registers;
 mod requests;
 mod run;
 pub mod signals;
