@@ -9,6 +9,10 @@ CARGO ?= cargo
 RESULTS ?= results
 # Presets for exhaustive and mutants; none named means those they choose themselves.
 PRESETS ?=
+# One profile for all of `make test`, and there the programs that the tests built: `cargo run` would leave out what only
+# tests ask of the libraries, and so compile them all again.
+TARGET = $(or $(CARGO_TARGET_DIR),target)
+CHECKED = --profile release-checked
 BLYSK = $(CARGO) run --release --locked --quiet --bin blysk --
 VENV = target/venv
 FORMAL = scripts/formal.py --blysk "$(BLYSK)"
@@ -65,14 +69,14 @@ setup-all: ## and what proofs and synthesis need
 test: setup ## everything that is checked: format, spelling, lints, documentation, tests, RTL
 	$(CARGO) fmt --all --check
 	$(VENV)/bin/typos
-	$(CARGO) clippy --workspace --all-targets --locked -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --workspace --no-deps --locked
-	$(CARGO) test --workspace --locked --profile release-checked
-	@scripts/synth.py --check --blysk "$(CARGO) run --locked --quiet --profile release-checked --bin blysk --"
-	@$(MAKE) --no-print-directory rtl
+	$(CARGO) clippy $(CHECKED) --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
+	$(CARGO) test $(CHECKED) --workspace --locked
+	@scripts/synth.py --check --blysk $(TARGET)/release-checked/blysk
+	$(TARGET)/release-checked/cosimulate
 
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
-	$(CARGO) run --locked --quiet --profile release-checked --package blysk-tests --bin cosimulate
+	$(CARGO) run $(CHECKED) --locked --quiet --bin cosimulate
 
 peers: ## certified bounds and refined integers beside Sollya's, where that is installed
 	$(CARGO) build --release --locked --quiet --bin blysk
@@ -80,7 +84,7 @@ peers: ## certified bounds and refined integers beside Sollya's, where that is i
 	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
 
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
-	$(CARGO) run --locked --quiet --release --package blysk-tests --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
+	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package sim --bench throughput --locked
 
 pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
@@ -93,7 +97,7 @@ pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PAR
 exhaustive: setup ## every representable x: the error of every preset, and the RTL of two; takes long
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \
 	echo "Results are in $(RESULTS)/exhaustive/."
-	$(CARGO) run --locked --quiet --release --package blysk-tests --bin exhaustive -- $(PRESETS)
+	$(CARGO) run --locked --quiet --release --bin exhaustive -- $(PRESETS)
 
 formal: setup-all ## prove the RTL: handshake, arithmetic, pipeline; some minutes
 	@$(FORMAL) --out $(RESULTS)/formal
@@ -105,7 +109,7 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 	@scripts/synth.py --blysk "$(BLYSK)" --out $(RESULTS)/synth
 
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
-	$(CARGO) run --locked --quiet --release --package blysk-tests --bin mutants -- $(PRESETS)
+	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

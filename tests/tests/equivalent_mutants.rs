@@ -80,26 +80,31 @@ fn judgements_are_those_of_every_input() {
     let icarus = &simulators::all().unwrap()[0];
     small.bench.build(icarus, &netlist::sources()).unwrap();
     let outcomes = netlist::run(&small.bench, icarus, &small.mutations).unwrap();
-    let (directory, all) = (&small.bench.directory, [true; MUTATIONS]);
+    // Every one that survives, and of those that are killed some: a judgement takes seconds.
+    let asked: Vec<bool> = (outcomes.iter().enumerate())
+        .map(|(index, outcome)| outcome.killed_by.is_none() || index % 4 == 0)
+        .collect();
+    let directory = &small.bench.directory;
     let judged =
-        netlist::judge(directory, DESIGN.datapath(), &small.mutations, &all, SECONDS).unwrap();
+        netlist::judge(directory, DESIGN.datapath(), &small.mutations, &asked, SECONDS).unwrap();
     let (mut equivalent, mut visible) = (0, 0);
-    for (outcome, judgement) in outcomes.iter().zip(judged.into_iter().flatten()) {
+    for (outcome, judgement) in outcomes.iter().zip(judged) {
         let killed = outcome.killed_by.is_some();
         match judgement {
-            Judgement::Equivalent(why) => {
+            None => {}
+            Some(Judgement::Equivalent(why)) => {
                 assert!(!killed, "{outcome:?} is said to be equivalent: {why}");
                 equivalent += 1;
             }
-            Judgement::Visible { .. } => {
+            Some(Judgement::Visible { .. }) => {
                 assert!(killed, "{outcome:?} is said to be visible");
                 visible += 1;
             }
-            Judgement::Open => {}
+            Some(Judgement::Open) => {}
         }
     }
     // How many stay open is a matter of the machine's speed; that there are both kinds is none.
-    let open = MUTATIONS - equivalent - visible;
+    let open = asked.iter().filter(|asked| **asked).count() - equivalent - visible;
     assert!(
         equivalent >= 1 && visible >= 10,
         "{equivalent} equivalent, {visible} visible, {open} open"

@@ -208,8 +208,9 @@ impl Made {
         write_folded(out, self.guard())?;
         write_folded(out, &self.software(scene)?)?;
         if let Some(directory) = &args.out {
+            let source = if args.synth { ", source_rtl" } else { "" };
             let said = "configuration.json, certificate.json, left_out.csv, left_out.json, rtl";
-            write_folded(out, &format!("written to {}: {said}", directory.display()))?;
+            write_folded(out, &format!("written to {}: {said}{source}", directory.display()))?;
         }
         Ok(())
     }

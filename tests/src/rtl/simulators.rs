@@ -143,6 +143,8 @@ impl Simulator {
         command.env_remove("MAKEFLAGS").env_remove("MFLAGS").env_remove("MAKELEVEL");
         if let Some((program, root)) = &self.verilator {
             command.arg(format!("VERILATOR={}", program.display()));
+            // Half of each build is Verilator's own library, the same every time: compiled once.
+            command.env("OBJCACHE", "ccache").env("CCACHE_DIR", repository().join("target/ccache"));
             if let Some(root) = root {
                 command.env("VERILATOR_ROOT", root);
             }

@@ -67,6 +67,24 @@ fn the_close_up_keeps_one_row_and_no_tail() {
     assert_eq!(small.datapath().evaluate(1, 5).status, Status::NO_WORD);
 }
 
+/// What Yosys counts, of the whole and of what is left.
+#[test]
+fn synthesis_counts_both() {
+    let bench = bench!();
+    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/small.json");
+    let options =
+        ["--config", whole.to_str().unwrap(), "--count", "1", "--synth", "--out", "small"];
+    let said = specialised(&bench, "low_exponents", &options);
+    assert!(said.trim_end().ends_with(", rtl, source_rtl"), "{said}");
+    for name in ["LUTs", "flip-flops"] {
+        let [before, after] = part(&bench, "small/left_out.csv", name);
+        assert!(before > after && after > 0.0, "{name}: {before} {after}");
+    }
+    for place in ["rtl", "source_rtl"] {
+        assert!(bench.text(&format!("small/{place}/blysk_pkg.sv")).contains("package blysk_pkg"));
+    }
+}
+
 #[test]
 fn exponents_up_to_three_need_a_multiplier_less_and_every_x() {
     let bench = bench!();
