@@ -107,6 +107,19 @@ impl Mutant {
         ![NETLIST, DISTANT_ROWS].contains(&self.class)
     }
 
+    /// Why it survives where it does: what kills it in the other bundle, or what is known of it.
+    fn why(&self) -> String {
+        match (&self.by_default, &self.by_compact, self.known) {
+            (None, Some(by), Known::Nothing) => {
+                format!("an escape: the compact set kills it ({by})")
+            }
+            (Some(by), None, Known::Nothing) => {
+                format!("an escape: the default bundle kills it ({by})")
+            }
+            (.., known) => known.to_string(),
+        }
+    }
+
     fn fate(&self, killed_by: Option<&String>) -> &'static str {
         match (killed_by, self.known) {
             (Some(_), _) => "killed",
@@ -305,7 +318,7 @@ fn judge(preset: &str, mutants: &[Mutant]) -> bool {
             (None, Some(_)) => "the default bundle",
             _ => "the compact set",
         };
-        println!("  {} survives {place}: {}", mutant.name, mutant.known);
+        println!("  {} survives {place}: {}", mutant.name, mutant.why());
     }
     whole.all > 0 && whole.percent() >= 99.0 && model.all > 0 && model.killed == model.all
 }
@@ -317,7 +330,7 @@ fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
         for mutant in mutants {
             let (default, compact) = (mutant.by_default.as_ref(), mutant.by_compact.as_ref());
             let survives = default.is_none() || compact.is_none();
-            let why = if survives { mutant.known.to_string() } else { String::new() };
+            let why = if survives { mutant.why() } else { String::new() };
             csv.write_record([
                 mutant.class,
                 &mutant.name,
