@@ -109,6 +109,7 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 	@scripts/synth.py --blysk "$(BLYSK)" --out $(RESULTS)/synth
 
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
+	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
 
 clean: ## remove everything that was built or written

@@ -73,16 +73,27 @@ fn mutation(graph: &Graph, mode: &str, signal: &str, bit: usize, port: &str) -> 
     format!("mutate -mode {mode} -module blysk -cell {cell} -port {port} -portbit {place}")
 }
 
-/// What no vector of all shows is the same, and what is said to be the same no vector shows.
+/// What no vector of all shows is the same, and what is said to be the same no vector shows. A judgement takes
+/// seconds: every mutation that survives is judged, and of those that are killed every fourth.
 #[test]
 fn judgements_are_those_of_every_input() {
-    let small = Small::new("proofs-every-input");
+    judge_against_every_input("proofs-every-input", |index| index % 4 == 0);
+}
+
+#[test]
+#[ignore = "minutes; make mutants runs it"]
+fn judgements_of_all_mutations_are_those_of_every_input() {
+    judge_against_every_input("proofs-all-mutations", |_| true);
+}
+
+/// `chosen` are judged although they are killed.
+fn judge_against_every_input(name: &str, chosen: fn(usize) -> bool) {
+    let small = Small::new(name);
     let icarus = &simulators::all().unwrap()[0];
     small.bench.build(icarus, &netlist::sources()).unwrap();
     let outcomes = netlist::run(&small.bench, icarus, &small.mutations).unwrap();
-    // Every one that survives, and of those that are killed some: a judgement takes seconds.
     let asked: Vec<bool> = (outcomes.iter().enumerate())
-        .map(|(index, outcome)| outcome.killed_by.is_none() || index % 4 == 0)
+        .map(|(index, outcome)| outcome.killed_by.is_none() || chosen(index))
         .collect();
     let directory = &small.bench.directory;
     let judged =
