@@ -13,6 +13,9 @@
 // With two segments (SEGMENTS = 2) the second answers from cut up to hand_over: outer_o chooses its
 // coefficients, and its variable counts from hand_over.
 //
+// The ROM's cut and hand_over may have fewer fraction bits than x: CUT_UP and HAND_OVER_UP places of zeros bring
+// them to the unit of x.
+//
 // A part that does not answer is fed a harmless x, for which the ranges of its registers are proved
 // too: the polynomial u = 0, or the greatest x in the power form; the divider x = 0.
 //
@@ -59,7 +62,9 @@ module blysk_front_end (
   assign no_word = status_i[blysk_pkg::STATUS_NO_WORD];
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : cut
-    assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= blysk_pkg::CUT_COMPARE_WIDTH'(cut_i);
+    logic [blysk_pkg::CUT_COMPARE_WIDTH-1:0] least_x;
+    assign least_x = blysk_pkg::CUT_COMPARE_WIDTH'(cut_i) << blysk_pkg::CUT_UP;
+    assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= least_x;
   end else begin : no_cut
     assign above_cut = 1'b0;
     logic unused;
@@ -81,8 +86,10 @@ module blysk_front_end (
 
   // ---- Which segment -------------------------------------------------------------------------------
   if (blysk_pkg::SEGMENTS > 1) begin : segments
+    logic [blysk_pkg::HAND_OVER_COMPARE_WIDTH-1:0] least_x;
+    assign least_x = blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i) << blysk_pkg::HAND_OVER_UP;
     assign outer_o = region_d == blysk_pkg::REGION_POLYNOMIAL
-        && blysk_pkg::HAND_OVER_COMPARE_WIDTH'(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i);
+        && blysk_pkg::HAND_OVER_COMPARE_WIDTH'(x) < least_x;
   end else begin : one_segment
     assign outer_o = 1'b0;
     logic unused;
@@ -101,7 +108,8 @@ module blysk_front_end (
       logic        [SHIFT_BITS-1:0] shift;
       logic signed [U_WIDTH-1:0]    u;
       if (blysk_pkg::SEGMENTS > 1) begin : second
-        assign start = outer_o ? S_WIDTH'(hand_over_i) : S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
+        assign start = outer_o ? S_WIDTH'(hand_over_i) << blysk_pkg::HAND_OVER_UP
+                               : S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
         assign shift = outer_o ? SHIFT_BITS'(shift_outer_i) : SHIFT_BITS'(shift_i);
       end else begin : first
         assign start = S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;

@@ -77,6 +77,14 @@ pub struct StatedWidths {
     /// Result of stage 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub t2: Option<QFormat>,
+    /// The least x at which the polynomial answers, rounded to the nearest (down where a divider answers below it):
+    /// unsigned, at most one integer bit, and no more fraction bits than x. With a domain, whose least x takes the place of the cut with all bits of x,
+    /// it says only below what the domain may not begin.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cut: Option<QFormat>,
+    /// The least x at which the first of two segments answers, rounded to the nearest; a format as that of the cut.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hand_over: Option<QFormat>,
     /// A of the tail.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tail_a: Option<QFormat>,
@@ -335,14 +343,35 @@ impl Config {
 
     /// A format stated for a register that the configuration does not have is a mistake.
     fn check_stated(&self) -> Result<(), ConfigError> {
-        let StatedWidths { u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor } = &self.widths;
+        let StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor } =
+            &self.widths;
         let polynomial = self.method != Method::Schlick;
         let stated = |formats: &[&Option<QFormat>]| formats.iter().any(|format| format.is_some());
         if stated(&[u]) && (self.form == Form::Power || !polynomial) {
             return wrong("widths.u", "only the centred form has a u; leave it out");
         }
-        if stated(&[c3, c2, c1, c0, t1, t2]) && !polynomial {
-            return wrong("widths", "schlick has no polynomial; leave out c3 to c0, t1 and t2");
+        if stated(&[c3, c2, c1, c0, t1, t2, cut]) && !polynomial {
+            return wrong(
+                "widths",
+                "schlick has no polynomial; leave out c3 to c0, t1, t2 and cut",
+            );
+        }
+        if hand_over.is_some() && self.segments < 2 {
+            return wrong("widths.hand_over", "only two segments hand over; leave it out");
+        }
+        let within_x = |format: &QFormat| {
+            !format.is_signed()
+                && format.integer_bits() <= 1
+                && format.fraction_bits() <= self.input.fraction_bits()
+        };
+        for (name, format) in [("widths.cut", cut), ("widths.hand_over", hand_over)] {
+            if !format.as_ref().is_none_or(within_x) {
+                return wrong(
+                    name,
+                    "it is compared with x and at most 1: give an unsigned format with at most one \
+                     integer bit and no more fraction bits than the input's",
+                );
+            }
         }
         if stated(&[tail_a, tail_b, divisor]) && self.tail == Tail::Zero {
             return wrong(

@@ -240,6 +240,18 @@ fn state_widths(random: &mut Random, config: &mut Config) {
         state(&mut widths.tail_b, tail.b);
         state(&mut widths.divisor, tail.divisor);
     }
+    for (place, end) in [(&mut widths.cut, formats.cut), (&mut widths.hand_over, formats.hand_over)]
+    {
+        *place = end.filter(|_| random.once_in(2)).and_then(|end| coarser(random, end));
+    }
+}
+
+/// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is needed.
+fn coarser(random: &mut Random, format: QFormat) -> Option<QFormat> {
+    let most = format.fraction_bits();
+    let fewer = random.integer(0, i64::from(most) - 1).min(random.integer(0, most.into())) as u32;
+    let integer = if random.once_in(12) { format.integer_bits() } else { 1 };
+    QFormat::unsigned(integer, most - fewer).ok()
 }
 
 /// Inputs of a row: corners, the cut and its neighbours, uniform, near one, above one, negative.

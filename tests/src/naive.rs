@@ -234,7 +234,7 @@ impl<'a> Naive<'a> {
         let polynomial_x = if region == "polynomial" { &clamped } else { &harmless };
         let second = region == "polynomial"
             && self.config.segments == 2
-            && BigInt::from(row.get(FieldName::HandOver)) > *polynomial_x;
+            && self.end(&row, FieldName::HandOver, self.formats.hand_over) > *polynomial_x;
         let lines = self.lines(&row, polynomial_x, second);
         let tail_x = if region == "tail" { clamped } else { BigInt::ZERO };
         let divisor = self.divisor(&row, &tail_x);
@@ -262,12 +262,19 @@ impl<'a> Naive<'a> {
         })
     }
 
+    /// A cut or hand-over in the input's unit.
+    fn end(&self, row: &Row, name: FieldName, format: Option<QFormat>) -> BigInt {
+        let input = self.formats.input.fraction_bits();
+        let fraction = format.map_or(input, |format| format.fraction_bits());
+        BigInt::from(row.get(name)) * power_of_two(input - fraction)
+    }
+
     fn region(&self, row: Option<&Row>, x: i64) -> &'static str {
         let Some(row) = row else { return "zero" };
         let polynomial = self.config.method != Method::Schlick;
         if x < 0 {
             "zero"
-        } else if polynomial && x >= row.get(FieldName::Cut) {
+        } else if polynomial && BigInt::from(x) >= self.end(row, FieldName::Cut, self.formats.cut) {
             "polynomial"
         } else if self.config.tail == Tail::Rational {
             "tail"
@@ -285,7 +292,8 @@ impl<'a> Naive<'a> {
         let input = self.formats.input.fraction_bits();
         let x = Exact::of_bits(x.clone(), input);
         let (start, shift, names) = if second {
-            let start = Exact::of_bits(row.get(FieldName::HandOver), input);
+            let start =
+                Exact::of_bits(self.end(row, FieldName::HandOver, self.formats.hand_over), input);
             (start, FieldName::ShiftOuter, SECOND)
         } else {
             (Exact::of_bits(1, 0), FieldName::Shift, FIRST)

@@ -108,6 +108,9 @@ fn fields_that_cannot_be_used_are_named() {
         (json!({"method": "schlick", "tail": "zero"}), vec!["`tail`", "rational"]),
         (json!({"cut": "minimum"}), vec!["`cut`", "epicentre"]),
         (json!({"form": "centered"}), vec!["centered", "centred"]),
+        (json!({"widths": {"cut": "UQ1.40"}}), vec!["`widths.cut`", "no more fraction bits"]),
+        (json!({"widths": {"cut": "UQ2.2"}}), vec!["`widths.cut`", "at most one integer bit"]),
+        (json!({"widths": {"hand_over": "UQ1.2"}}), vec!["`widths.hand_over`", "two segments"]),
         (json!({"rounding": "up"}), vec!["up", "nearest_up", "toward_zero"]),
         (json!({"q": "half"}), vec!["string \"half\"", "f64"]),
         (json!({"q": 1.0}), vec!["`q, g`", "q = 1", "0 < g < q < 1"]),
@@ -243,6 +246,10 @@ fn a_stated_width_that_could_overflow_names_register_exponent_and_need() {
         refused(&json!({"widths": {register: narrow}}), &words);
     }
     refused(
+        &json!({"tail": "zero", "widths": {"cut": "UQ0.2"}}),
+        &["register cut", "stated as UQ0.2", "could overflow at n = 6", "it needs UQ1.2"],
+    );
+    refused(
         &json!({"input": "UQ1.20", "output": "UQ1.8", "widths": {"divisor": "UQ10.10"}}),
         &["register divisor", "stated as UQ10.10", "needs 11 fraction bits"],
     );
@@ -375,7 +382,7 @@ fn any_value() -> impl Strategy<Value = Value> {
     ]
 }
 
-const FIELDS: [&str; 24] = [
+const FIELDS: [&str; 25] = [
     "name",
     "method",
     "exponents",
@@ -399,6 +406,7 @@ const FIELDS: [&str; 24] = [
     "t2",
     "tail_a",
     "divisor",
+    "hand_over",
     "surprise",
 ];
 

@@ -48,15 +48,18 @@ module front_end_proof #(
   localparam logic signed [WIDE-1:0] X_ONE = ONE <<< blysk_pkg::INPUT_FRACTION;
   localparam logic signed [WIDE-1:0] X_GREATEST = WIDE'(blysk_pkg::X_GREATEST);
 
-  logic signed [WIDE-1:0] port, x, s, u, exact, variable;
+  logic signed [WIDE-1:0] port, x, first, middle, s, u, exact, variable;
   logic                   polynomial, second;
   logic [blysk_pkg::SHIFT_COMMON_WIDTH-1:0] places;
   always_comb begin
     port       = blysk_pkg::INPUT_SIGNED != 0 ? WIDE'($signed(x_i)) : WIDE'(x_i);
     x          = port < 0 ? '0 : port > X_GREATEST ? X_GREATEST : port;
-    polynomial = blysk_pkg::HAS_POLYNOMIAL != 0 && !no_word_i && port >= 0 && x >= WIDE'(cut);
-    second     = blysk_pkg::SEGMENTS > 1 && polynomial && x < WIDE'(hand_over);
-    s          = !polynomial ? '0 : second ? WIDE'(hand_over) - x : X_ONE - x;
+    // Both ends in the unit of x.
+    first      = WIDE'(cut) <<< blysk_pkg::CUT_UP;
+    middle     = WIDE'(hand_over) <<< blysk_pkg::HAND_OVER_UP;
+    polynomial = blysk_pkg::HAS_POLYNOMIAL != 0 && !no_word_i && port >= 0 && x >= first;
+    second     = blysk_pkg::SEGMENTS > 1 && polynomial && x < middle;
+    s          = !polynomial ? '0 : second ? middle - x : X_ONE - x;
     places     = second ? blysk_pkg::SHIFT_COMMON_WIDTH'(shift_outer) : blysk_pkg::SHIFT_COMMON_WIDTH'(shift);
   end
 

@@ -103,8 +103,7 @@ impl<L: Lane> Segment<L> {
 
     /// The second, which counts from where the first hands over.
     #[inline(always)]
-    pub(super) fn outer(row: &Row) -> Self {
-        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+    pub(super) fn outer(row: &Row, hand_over: L) -> Self {
         Self::of(row, FieldName::OUTER_COEFFICIENTS, hand_over, row.shift_outer())
     }
 
@@ -196,7 +195,7 @@ impl Lines {
         regions: &mut [Region],
         keep: &Registers<K>,
     ) {
-        let cut = L::from_bits(row.get(FieldName::Cut));
+        let cut = L::from_bits(self.front_end.cut(row));
         let mut any_tail = false;
         for (&x, region) in xs.iter().zip(regions.iter_mut()) {
             *region = self.front_end.region(L::from_bits(x), cut);
@@ -223,9 +222,9 @@ impl Lines {
             return;
         };
         let one = L::from_bits(self.output_one);
-        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let hand_over = L::from_bits(self.front_end.hand_over(row));
         let first = Segment::first(row, L::from_bits(self.front_end.one));
-        let second = Segment::outer(row);
+        let second = Segment::outer(row, hand_over);
         for ((&x, &region), intensity) in xs.iter().zip(regions).zip(intensities) {
             let x = self.front_end.clamp_input(L::from_bits(x));
             let outer = self.front_end.is_outer(x, region, hand_over);

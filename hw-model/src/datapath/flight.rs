@@ -157,15 +157,16 @@ impl Logic {
         let (given, input_one) = (L::from_bits(given), L::from_bits(front_end.one));
         let one = L::from_bits(output_one);
         let x = front_end.clamp_input(given);
-        let region = front_end.region(given, L::from_bits(row.get(FieldName::Cut)));
+        let region = front_end.region(given, L::from_bits(front_end.cut(row)));
         let region = if known { region } else { Region::Zero };
         let status = fetched
             .with(Status::ABOVE_ONE, given > input_one)
             .with(Status::FACING_AWAY, given < L::ZERO)
             .with(Status::OUT_OF_DOMAIN, known && front_end.outside(given, region));
-        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let hand_over = L::from_bits(front_end.hand_over(row));
         let outer = front_end.is_outer(x, region, hand_over);
-        let segment = if outer { Segment::outer(row) } else { Segment::first(row, input_one) };
+        let segment =
+            if outer { Segment::outer(row, hand_over) } else { Segment::first(row, input_one) };
         let Segment { start, shift, c: [c0, c1, c2, c3] } = segment;
         let v = front_end.variable(x, region, start, shift);
         let tail_x = front_end.tail_x(x, region);

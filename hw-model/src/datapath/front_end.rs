@@ -19,9 +19,12 @@
 //! registers holds for every input: the polynomial gets u = 0, or x = 1 (the greatest x, where the format
 //! does not reach 1), which the ranges of every row include, and the divider x = 0.
 //!
+//! Cut and hand-over may have fewer fraction bits than x; zeros below their last place bring them to the unit of x.
+//!
 //! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1 (with
 //! fitted shifts below 1 in both segments); it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
 
+use crate::rom::{FieldName, Row};
 use crate::rounding::{Lane, Rounding, round_shift};
 
 /// The part of the pipeline that answers.
@@ -80,6 +83,10 @@ pub struct FrontEnd {
     pub tail: bool,
     /// True where the configuration has a domain: no x below the cut is presented.
     pub guarded: bool,
+    /// Places that the ROM's cut is moved up, to the input's last: it may have fewer bits than x.
+    pub cut_up: u32,
+    /// The same of the hand-over.
+    pub hand_over_up: u32,
 }
 
 impl FrontEnd {
@@ -124,6 +131,20 @@ impl FrontEnd {
         };
         let variable = if centred { Variable::U { up, drop, rounding: mode } } else { Variable::X };
         Self { variable: Some(variable), ..self }
+    }
+
+    /// The cut of a row, in the input's unit. At most 63 bits: what a ROM field with x's fraction bits holds.
+    #[inline(always)]
+    #[must_use]
+    pub const fn cut(&self, row: &Row) -> i64 {
+        row.get(FieldName::Cut) << self.cut_up
+    }
+
+    /// The hand-over of a row, in the input's unit; as wide as the cut.
+    #[inline(always)]
+    #[must_use]
+    pub const fn hand_over(&self, row: &Row) -> i64 {
+        row.get(FieldName::HandOver) << self.hand_over_up
     }
 
     /// x clamped to [0, 1].

@@ -177,10 +177,10 @@ impl Datapath {
         let region = if before.status.contains(Status::NO_WORD) {
             Region::Zero
         } else {
-            self.front_end.region(given, L::from_bits(before.row.get(FieldName::Cut)))
+            self.front_end.region(given, L::from_bits(self.front_end.cut(&before.row)))
         };
         let row = &before.row;
-        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let hand_over = L::from_bits(self.front_end.hand_over(row));
         let outer = self.front_end.is_outer(x, region, hand_over);
         let (start, shift, row) = if outer {
             (hand_over, row.shift_outer(), row.in_outer())

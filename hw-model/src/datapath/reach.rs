@@ -126,8 +126,8 @@ impl Datapath {
 
     /// The first and the last x at which each segment of a row answers; only of those that do.
     fn polynomial_spans(&self, row: &Row) -> impl Iterator<Item = (i64, i64)> {
-        let (cut, greatest) = (row.get(FieldName::Cut).max(0), self.front_end.greatest);
-        let hand_over = row.get(FieldName::HandOver);
+        let (cut, greatest) = (self.front_end.cut(row).max(0), self.front_end.greatest);
+        let hand_over = self.front_end.hand_over(row);
         let spans = [(cut, (hand_over - 1).min(greatest)), (cut.max(hand_over), greatest)];
         spans.into_iter().filter(|(first, last)| first <= last)
     }
@@ -135,9 +135,9 @@ impl Datapath {
     /// What the polynomial is given for x from `first` to `last`, both of one segment, and what its lines
     /// make of it.
     fn lines<L: Lane>(&self, row: &Row, first: i64, last: i64) -> Lines<L> {
-        let outer = first < row.get(FieldName::HandOver);
+        let outer = first < self.front_end.hand_over(row);
         let (start, shift, row) = if outer {
-            (row.get(FieldName::HandOver), row.shift_outer(), row.in_outer())
+            (self.front_end.hand_over(row), row.shift_outer(), row.in_outer())
         } else {
             (self.front_end.one, row.shift(), *row)
         };
@@ -201,7 +201,7 @@ impl Datapath {
     fn last_of_tail(&self, row: &Row) -> i64 {
         let greatest = self.front_end.greatest;
         match self.front_end.variable {
-            Some(_) => (row.get(FieldName::Cut) - 1).clamp(0, greatest),
+            Some(_) => (self.front_end.cut(row) - 1).clamp(0, greatest),
             None => greatest,
         }
     }

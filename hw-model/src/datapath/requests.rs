@@ -259,9 +259,9 @@ impl Lines {
             let field = |name| L::from_bits(words.get(name, request));
             let given = L::from_bits(given);
             let x = front_end.clamp_input(given);
-            let region = front_end.region(given, field(FieldName::Cut));
+            let region = front_end.region(given, field(FieldName::Cut) << front_end.cut_up);
             let region = if words.known(request) { region } else { Region::Zero };
-            let hand_over = field(FieldName::HandOver);
+            let hand_over = field(FieldName::HandOver) << front_end.hand_over_up;
             let outer = TWO && front_end.is_outer(x, region, hand_over);
             let start = if outer { hand_over } else { input_one };
             // Both are loaded: a choice of the address would not fit into vectors.

@@ -133,7 +133,7 @@ impl Lines {
     #[inline(always)]
     fn pieces<L: Lane, D: Lane, K: Known>(&self, row: &Row, mut x: i64, mut rest: &mut [i64]) {
         let end = self.front_end.greatest + 1;
-        let [cut, hand_over] = [FieldName::Cut, FieldName::HandOver].map(|name| row.get(name));
+        let (cut, hand_over) = (self.front_end.cut(row), self.front_end.hand_over(row));
         for until in [0, cut.min(end), hand_over.min(end), end, i64::MAX] {
             let count = usize::try_from(until.saturating_sub(x)).unwrap_or(0).min(rest.len());
             let (piece, others) = rest.split_at_mut(count);
@@ -147,7 +147,7 @@ impl Lines {
     /// A piece in which one part answers for every x.
     #[inline(always)]
     fn piece<L: Lane, D: Lane, K: Known>(&self, row: &Row, x: i64, piece: &mut [i64]) {
-        let region = self.front_end.region(x, row.get(FieldName::Cut));
+        let region = self.front_end.region(x, self.front_end.cut(row));
         // Above the greatest x all are taken as it.
         let above = x > self.front_end.greatest;
         let computed = if above { 1 } else { piece.len() };
@@ -170,10 +170,10 @@ impl Lines {
         };
         // One segment answers for all of the piece: see `pieces`.
         let clamped = front_end.clamp_input(L::from_bits(first));
-        let hand_over = L::from_bits(row.get(FieldName::HandOver));
+        let hand_over = L::from_bits(front_end.hand_over(row));
         let Segment { start, shift, c: [c0, c1, c2, c3] } =
             if front_end.is_outer(clamped, Region::Polynomial, hand_over) {
-                Segment::outer(row)
+                Segment::outer(row, hand_over)
             } else {
                 Segment::first(row, L::from_bits(front_end.one))
             };

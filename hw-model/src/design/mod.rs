@@ -59,6 +59,8 @@ pub enum DesignError {
 #[derive(Debug, Clone)]
 pub struct Design {
     config: Config,
+    /// As they were fitted: before their ends were rounded to stated formats, and the domain cut them off.
+    fitted: Vec<RealRow>,
     rows: Vec<RealRow>,
     bounds: Vec<Bound>,
     datapath: Datapath,
@@ -73,19 +75,20 @@ impl Design {
     pub fn new(config: Config) -> Result<Self, DesignError> {
         config.check()?;
         let levels = config.levels()?;
-        let mut rows: Vec<RealRow> = config
+        let fitted = config
             .exponents
             .iter()
             .map(|exponent| RealRow::new(&config, levels, exponent))
             .collect::<Result<_, _>>()?;
+        Self::of_rows(config, fitted)
+    }
+
+    /// The rest, from rows as they were fitted.
+    fn of_rows(config: Config, fitted: Vec<RealRow>) -> Result<Self, DesignError> {
+        let mut rows: Vec<RealRow> = fitted.iter().map(|row| row.in_places(&config)).collect();
         for row in &mut rows {
             row.cut = domain::least_bits(&config, row.exponent, row.cut)?.unwrap_or(row.cut);
         }
-        Self::of_rows(config, rows)
-    }
-
-    /// The rest, from rows that are those of the configuration.
-    fn of_rows(config: Config, rows: Vec<RealRow>) -> Result<Self, DesignError> {
         let mut parts = Parts::new(&config, &rows);
         let polynomial = polynomial::derive(&config, &rows, &mut parts)?;
         let divider = tail::derive(&config, &rows, &mut parts)?;
@@ -93,6 +96,8 @@ impl Design {
         if let Some(&(line, bits)) = parts.lane_bits.iter().find(|(_, bits)| *bits > 127) {
             return Err(BudgetError::LineTooWide { line, bits }.into());
         }
+        let input = config.input.fraction_bits();
+        let places = |end: Option<QFormat>| end.map_or(0, |end| input - end.fraction_bits());
         let datapath = Datapath {
             rom: Rom::new(config.exponents.clone(), parts.rom_rows, &parts.fields),
             formats: parts.formats,
@@ -102,6 +107,8 @@ impl Design {
                 variable: polynomial.as_ref().map(|(variable, _)| *variable),
                 tail: divider.is_some(),
                 guarded: !config.domain.is_empty(),
+                cut_up: places(parts.formats.cut),
+                hand_over_up: places(parts.formats.hand_over),
             },
             stages: polynomial.map(|(_, stages)| stages),
             divider,
@@ -109,7 +116,7 @@ impl Design {
             narrow,
         };
         doubt::settle(parts.doubts, &datapath)?;
-        Ok(Self { config, rows, bounds: parts.bounds, datapath })
+        Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }
 
     /// The configuration.

@@ -282,27 +282,39 @@ fn front_end_fields(
     rows: &[RealRow],
     parts: &mut Parts,
 ) -> Result<(), DesignError> {
-    let greatest = |of: fn(&RealRow) -> i64| rows.iter().map(of).max().unwrap_or(0);
-    let integer_format = |register, greatest: i64, fraction| {
-        Range::zero()
-            .with((0.0, greatest as f64 * (-f64::from(fraction)).exp2()), f64::NAN)
-            .format(register, fraction, None)
+    let integer_format = |register, of: fn(&RealRow) -> i64, fraction, stated: Option<QFormat>| {
+        let (bits, exponent) = rows
+            .iter()
+            .rev()
+            .map(|row| (of(row), row.exponent))
+            .max_by_key(|row| row.0)
+            .unwrap_or((0, 1.0));
+        let greatest = bits as f64 * (-f64::from(fraction)).exp2();
+        let fraction = stated.map_or(fraction, QFormat::fraction_bits);
+        Range::zero().with((0.0, greatest), exponent).format(register, fraction, stated)
     };
     let fraction = config.input.fraction_bits();
-    let cut = integer_format("cut", greatest(|row| row.cut), fraction)?;
-    parts.add_field(FieldName::Cut, cut, rows.iter().map(|row| row.cut));
+    let up = |format: QFormat| fraction - format.fraction_bits();
+    let stated = config.widths.cut.filter(|_| config.domain.is_empty());
+    let cut = integer_format("cut", |row| row.cut, fraction, stated)?;
+    parts.add_field(FieldName::Cut, cut, rows.iter().map(|row| row.cut >> up(cut)));
     parts.formats.cut = Some(cut);
     if config.form == Form::Centred {
-        let shift = integer_format("shift", greatest(|row| row.shift.into()), 0)?;
+        let shift = integer_format("shift", |row| row.shift.into(), 0, None)?;
         parts.add_field(FieldName::Shift, shift, rows.iter().map(|row| row.shift.into()));
         parts.formats.shift = Some(shift);
     }
     if rows.iter().any(|row| row.outer.is_some()) {
-        let hand_over = integer_format("hand_over", greatest(|row| row.hand_over), fraction)?;
-        parts.add_field(FieldName::HandOver, hand_over, rows.iter().map(|row| row.hand_over));
+        let stated = config.widths.hand_over;
+        let hand_over = integer_format("hand_over", |row| row.hand_over, fraction, stated)?;
+        parts.add_field(
+            FieldName::HandOver,
+            hand_over,
+            rows.iter().map(|row| row.hand_over >> up(hand_over)),
+        );
         parts.formats.hand_over = Some(hand_over);
         let of = |row: &RealRow| row.outer.map_or(0, |outer| outer.shift.into());
-        let shift = integer_format("shift_outer", greatest(of), 0)?;
+        let shift = integer_format("shift_outer", of, 0, None)?;
         parts.add_field(FieldName::ShiftOuter, shift, rows.iter().map(of));
         parts.formats.shift_outer = Some(shift);
     }

@@ -3,9 +3,10 @@
 use crate::config::{Config, Cut, Form, Tail};
 use crate::fit::minimax::{self, Range};
 use crate::fit::{Curve, FitError, Levels, Method, fit};
+use crate::format::QFormat;
 use crate::highlight::{Cubic, Rational, Segment};
 use crate::quantise::round_scaled;
-use crate::rounding::Rounding;
+use crate::rounding::{Rounding, round_shift};
 
 /// What one row means in real numbers, and where its parts meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,7 +46,7 @@ impl RealRow {
     /// # Errors
     /// When the exponent is out of range.
     pub fn new(config: &Config, levels: Levels, exponent: f64) -> Result<Self, FitError> {
-        if config.segments > 1 || config.cut == Cut::Balanced {
+        if ends_are_fitted(config) {
             return Self::fitted(config, levels, exponent);
         }
         let own = fit(config.method, exponent, levels)?;
@@ -109,6 +110,31 @@ impl RealRow {
         })
     }
 
+    /// The row with its ends rounded to the stated formats of cut and hand-over. The second segment then counts from
+    /// the new hand-over, and a shift that was fitted to a length is fitted to the new one.
+    #[must_use]
+    pub(super) fn in_places(&self, config: &Config) -> Self {
+        let in_place = |end: i64, format: Option<QFormat>, mode: Rounding| {
+            format.map_or(end, |format| rounded_end(end, config.input, format, mode))
+        };
+        // A divider is never asked for more than Q, and so its cut does not move up.
+        let mode = if self.tail.is_some() { Rounding::Floor } else { Rounding::NearestEven };
+        let cut = in_place(self.cut, config.widths.cut, mode);
+        let hand_over = in_place(self.hand_over, config.widths.hand_over, Rounding::NearestEven);
+        if (cut, hand_over) == (self.cut, self.hand_over) {
+            return *self;
+        }
+        let length = |end: i64| (config.input.one() - end) as f64 * config.input.ulp();
+        let end = if self.outer.is_some() { hand_over } else { cut };
+        let is_fitted = config.form == Form::Centred && ends_are_fitted(config);
+        let outer = self.outer.map(|outer| Outer {
+            segment: outer.segment.counted_from(length(hand_over)),
+            shift: fitted_shift(length(cut) - length(hand_over)),
+        });
+        let shift = if is_fitted { fitted_shift(length(end)) } else { self.shift };
+        Self { cut, hand_over, outer, shift, ..*self }
+    }
+
     /// The least x in the input's unit that lies on the epicentre, x ≥ q.
     #[must_use]
     pub fn first_of_epicentre(&self, config: &Config) -> i64 {
@@ -167,9 +193,20 @@ fn cut_bits(config: &Config, s: f64) -> i64 {
     config.input.one() - floor as i64
 }
 
+/// True where the ends of the segments are part of the fit, and shifts follow from the lengths.
+fn ends_are_fitted(config: &Config) -> bool {
+    config.segments > 1 || config.cut == Cut::Balanced
+}
+
+/// The bits of an end in the input's unit, rounded to the last place of a format with no more fraction bits; at most 1.
+fn rounded_end(end: i64, input: QFormat, format: QFormat, mode: Rounding) -> i64 {
+    let dropped = input.fraction_bits() - format.fraction_bits();
+    round_shift(end, dropped, mode) << dropped
+}
+
 /// The greatest e that keeps length·2^e below 1, with room for its rounding (0 where there is none);
-/// 0 ≤ length ≤ 1. Below 1 the powers of u do not multiply the last bit of a coefficient. At most 62, for a
-/// segment of no length.
+/// length ≤ 1. Below 1 the powers of u do not multiply the last bit of a coefficient. At most 62, for a
+/// segment of no length, or one that never answers (length < 0).
 fn fitted_shift(length: f64) -> u32 {
     const GREATEST: f64 = 1.0 - 1.0 / 128.0;
     if length > 0.0 { floor_log2((GREATEST / length).max(1.0)).min(62) } else { 62 }
@@ -184,7 +221,58 @@ fn floor_log2(n: f64) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::floor_log2;
+    use super::{RealRow, floor_log2};
+    use crate::config::Config;
+
+    fn rows(fields: &str, widths: &str) -> Vec<RealRow> {
+        let json = format!(
+            r#"{{"name": "ends", "exponents": "1,2,5,40,1000", "input": "UQ1.12", "output": "UQ1.8",
+                {fields}, "widths": {{{widths}}}}}"#
+        );
+        let config = Config::from_json(&json).unwrap();
+        let levels = config.levels().unwrap();
+        let row = |n| RealRow::new(&config, levels, n).unwrap().in_places(&config);
+        config.exponents.iter().map(row).collect()
+    }
+
+    #[test]
+    fn ends_are_rounded_and_the_polynomials_stay() {
+        let fields = r#""method": "minimax", "segments": 2, "cut": "balanced""#;
+        let narrow = rows(fields, r#""cut": "UQ1.6", "hand_over": "UQ1.4""#);
+        let mut moved = 0;
+        for (wide, narrow) in rows(fields, "").into_iter().zip(narrow) {
+            assert_eq!((narrow.cut % 64, narrow.hand_over % 256), (0, 0), "{narrow:?}");
+            assert!((narrow.cut - wide.cut).abs() <= 32, "{narrow:?}");
+            assert!((narrow.hand_over - wide.hand_over).abs() <= 128, "{narrow:?}");
+            moved += u32::from(narrow.hand_over != wide.hand_over);
+            for s in [0.0, 0.01, 0.2, 0.7, 1.0] {
+                let [was, is] =
+                    [&wide, &narrow].map(|row| row.outer.unwrap().segment.value_at_s(s));
+                assert!((was - is).abs() <= 1e-9 * was.abs().max(1.0), "{was} {is}");
+            }
+            let length = |end: i64| (4096 - end) as f64 / 4096.0;
+            let [first, all] = [narrow.hand_over, narrow.cut].map(length);
+            for (length, shift) in
+                [(first, narrow.shift), (all - first, narrow.outer.unwrap().shift)]
+            {
+                let u = length * f64::from(shift).exp2();
+                assert!(u < 1.0 && (2.0 * u > 0.99 || shift == 62), "{length} {shift}");
+            }
+        }
+        assert!(moved > 2, "{moved} hand-overs moved");
+    }
+
+    #[test]
+    fn a_divider_is_asked_no_more_than_before() {
+        for (fields, tail) in
+            [(r#""tail": "rational""#, true), (r#""cut": "minimum", "tail": "zero""#, false)]
+        {
+            let fields = format!(r#""method": "hermite", {fields}"#);
+            let all = rows(&fields, "").into_iter().zip(rows(&fields, r#""cut": "UQ1.3""#));
+            let ups = all.filter(|(wide, narrow)| narrow.cut > wide.cut).count();
+            assert_eq!(ups == 0, tail, "{fields}: {ups} cuts went up");
+        }
+    }
 
     #[test]
     fn the_shift_is_exact_beside_powers_of_two() {

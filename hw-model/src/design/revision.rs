@@ -42,7 +42,7 @@ impl Design {
         let mut config = self.config.clone();
         revision.put_into(&mut config);
         config.check()?;
-        Self::of_rows(config, self.rows.clone())
+        Self::of_rows(config, self.fitted.clone())
     }
 
     /// The design of one row alone, with these changes; of the steps only its own count.
@@ -50,7 +50,7 @@ impl Design {
     /// # Errors
     /// As [`Design::new`], or when there is no such row.
     pub fn row_alone(&self, address: u32, mut revision: Revision) -> Result<Self, DesignError> {
-        let row = self.rows.get(address as usize).copied();
+        let row = self.fitted.get(address as usize).copied();
         let exponent = row.map_or(f64::NAN, |row| row.exponent);
         revision.coefficient_steps.retain(|steps| steps.n == exponent);
         let mut config = self.config.clone();
@@ -72,7 +72,11 @@ impl Design {
             let [c0, c1, c2, c3] = polynomial.coefficients.map(Some);
             let u = self.is_centred().then_some(polynomial.v);
             let (t1, t2) = (Some(polynomial.t1), Some(polynomial.t2));
-            widths = StatedWidths { u, c3, c2, c1, c0, t1, t2, ..widths };
+            // With a domain the register holds its least x, and what is stated is not its format.
+            let whole = self.config.domain.is_empty();
+            let cut = if whole { formats.cut } else { self.config.widths.cut };
+            let hand_over = formats.hand_over;
+            widths = StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, ..widths };
         }
         if let Some(tail) = &formats.tail {
             let [tail_a, tail_b, divisor] = [tail.a, tail.b, tail.divisor].map(Some);

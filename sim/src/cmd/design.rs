@@ -26,8 +26,8 @@ use crate::analysis::sizing::{
 /// latency, then register bits. The first few are narrowed bit by bit as far as the error allows, measured at
 /// every x of the range. What is printed is the least that was found, of which no register can lose a bit: every
 /// register gets two witnesses, an n and an x at which a fraction bit less, or an integer bit less, breaks the
-/// error or overflows. t3 has the output's fraction bits, cut and hand-over those of x, with which they are compared:
-/// these are not narrowed. The configuration that --out writes states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
+/// error or overflows. t3 has the output's fraction bits, and is not narrowed. The configuration that --out writes
+/// states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
 /// print the witnesses.
 #[derive(ClapArgs)]
 #[command(
@@ -228,8 +228,7 @@ fn breaks(witness: &Witness) -> String {
         }
         Breaks::MoreRom(bits) => format!("{bits} ROM bits"),
         Breaks::NoSuchBit => "no such bit".to_owned(),
-        Breaks::Given("x") => "is compared with x".to_owned(),
-        Breaks::Given(place) => format!("the {place} has it"),
+        Breaks::OutputHasIt => "the output has it".to_owned(),
         Breaks::Unproved => "no value; not proved".to_owned(),
     }
 }
@@ -293,7 +292,7 @@ fn witnesses(sized: &Sized) -> Rows {
                 _ => Cell::None,
             },
             match witness.breaks {
-                Breaks::Given(place) => place.into(),
+                Breaks::OutputHasIt => "output".into(),
                 _ => Cell::None,
             },
         ]);

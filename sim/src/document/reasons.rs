@@ -1,6 +1,6 @@
 //! Why a register is as wide as it is, in words.
 
-use hw_model::config::Config;
+use hw_model::config::{Config, Tail};
 use hw_model::datapath::front_end::Variable;
 use hw_model::datapath::{Datapath, Register};
 use hw_model::design::Share;
@@ -55,12 +55,8 @@ impl<'a> Reasons<'a> {
             }
             name if rank == 0 && FieldName::ALL.iter().any(|field| field.name() == name) => {
                 return match name {
-                    "cut" => {
-                        "in the ROM: up, to the first x that is not below the real cut".to_owned()
-                    }
-                    "hand_over" => {
-                        "in the ROM: up, to the first x that is not below the real point".to_owned()
-                    }
+                    "cut" => self.rounded_end("cut", self.cut_up()),
+                    "hand_over" => self.rounded_end("point", self.hand_over_up()),
                     "shift" | "shift_outer" => "no".to_owned(),
                     _ => "in the ROM: nearest_even".to_owned(),
                 };
@@ -82,14 +78,8 @@ impl<'a> Reasons<'a> {
                  does not answer"
                     .to_owned()
             }
-            "cut" => {
-                "the fraction bits of x, so that x ≥ cut is exact; integer bits for the greatest cut"
-                    .to_owned()
-            }
-            "hand_over" => {
-                "the fraction bits of x, so that x ≥ hand_over is exact; integer bits for the greatest"
-                    .to_owned()
-            }
+            "cut" => end_width("cut", "cut", self.cut_up(), format),
+            "hand_over" => end_width("hand_over", "one", self.hand_over_up(), format),
             "shift" | "shift_outer" => format!("e is at most {}", held.greatest),
             "remainder" if rank == 2 => "the upper part of x·2^k, less than D (see the divider)".to_owned(),
             "remainder" => "every remainder is less than D".to_owned(),
@@ -104,6 +94,24 @@ impl<'a> Reasons<'a> {
                 let fraction = self.fraction(name, format);
                 format!("{integer}; {fraction}{}", self.multiplier(name, format))
             }
+        }
+    }
+
+    fn cut_up(&self) -> u32 {
+        self.datapath().front_end().cut_up
+    }
+
+    fn hand_over_up(&self) -> u32 {
+        self.datapath().front_end().hand_over_up
+    }
+
+    /// How an end of a segment, in the ROM, comes from the real one.
+    fn rounded_end(&self, end: &str, up: u32) -> String {
+        let first = format!("in the ROM: up, to the first x that is not below the real {end}");
+        match self.config().tail {
+            _ if up == 0 => first,
+            Tail::Zero => format!("{first}; then nearest_even to the stated bits"),
+            Tail::Rational => format!("{first}; then down to the stated bits"),
         }
     }
 
@@ -182,6 +190,17 @@ impl<'a> Reasons<'a> {
 fn above(value: f64, other: &str) -> String {
     let mut written = (3..12).map(|count| places(value, count));
     written.find(|text| text != other).unwrap_or_else(|| places(value, 12))
+}
+
+/// The width of an end of a segment, which x is compared with.
+fn end_width(end: &str, greatest: &str, up: u32, format: QFormat) -> String {
+    let fraction = if up == 0 {
+        format!("the fraction bits of x, so that x ≥ {end} is exact")
+    } else {
+        let zeros = if up == 1 { "1 zero brings".to_owned() } else { format!("{up} zeros bring") };
+        format!("{}, as stated; {zeros} it to the unit of x", fraction_bits(format))
+    };
+    format!("{fraction}; integer bits for the greatest {greatest}")
 }
 
 fn fraction_bits(format: QFormat) -> String {

@@ -3,7 +3,6 @@
 use std::convert::Infallible;
 
 use hw_model::datapath::{Datapath, Signals, Status};
-use hw_model::rom::FieldName;
 
 use crate::pipeline::Pipeline;
 use crate::run::{StimulusCycle, run};
@@ -198,7 +197,7 @@ fn requests(datapath: &Datapath, count: usize) -> Vec<Request> {
     let depth = datapath.rom().depth() as u32;
     let request = |index: usize| {
         let spread = (index as u32 * 37 + depth / 4) % depth;
-        let cut = datapath.row(spread).get(FieldName::Cut).clamp(0, greatest);
+        let cut = datapath.front_end().cut(&datapath.row(spread)).clamp(0, greatest);
         // Different in every request, and far from the ends.
         let own = index as i64;
         let (address, x) = match index {

@@ -6,7 +6,6 @@ use hw_model::datapath::front_end::Region;
 use hw_model::design::Design;
 use hw_model::format::{Overflow, QFormat};
 use hw_model::quantise::{quantise, real};
-use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 use thiserror::Error;
 
@@ -97,7 +96,7 @@ impl<'a> Pipeline<'a> {
                 let available = rom.exponents().to_string();
                 return Err(MissingExponent { index, exponent, available });
             };
-            let cut = rom.rows()[place].get(FieldName::Cut);
+            let cut = front_end.cut(&rom.rows()[place]);
             Ok(MaterialRow {
                 exponent,
                 address: place as u32,

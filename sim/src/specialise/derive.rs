@@ -76,7 +76,7 @@ pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<Row>, SpecialiseE
         Ok(Row {
             demand: *demand,
             address: place as u32,
-            cut: rom.rows()[place].get(FieldName::Cut),
+            cut: source.datapath().front_end().cut(&rom.rows()[place]),
             least: scaled.unwrap_or(0) as i64,
         })
     };

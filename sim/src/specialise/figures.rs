@@ -7,7 +7,7 @@ use hw_model::rom::{FieldName, Place};
 use serde::Serialize;
 
 use super::derive::Row;
-use crate::analysis::sizing::{Hardware, NAMES, of_stated};
+use crate::analysis::sizing::{Hardware, NAMES, of_design};
 
 /// A part, before and after.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -35,7 +35,7 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<Left
     add("ROM words", &rom, format!("the scene has n = {}", specialised.rom().exponents()));
     let address = |design: &Design| u64::from(design.rom().address_width());
     add("address bits", &address, "for every word, and one more for \"no word\"".to_owned());
-    let hardware = |design: &Design| Hardware::of(design, &of_stated(&design.widths()));
+    let hardware = |design: &Design| Hardware::of(design, &of_design(design));
     add(
         "ROM bits",
         &|design| hardware(design).rom_bits,
@@ -73,7 +73,7 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<Left
 
 /// The registers that can be stated, by their formats.
 fn formats(source: &Design, specialised: &Design) -> Vec<LeftOut> {
-    let [before, after] = [source, specialised].map(|design| of_stated(&design.widths()));
+    let [before, after] = [source, specialised].map(of_design);
     let width = |format: Option<QFormat>| u64::from(format.map_or(0, QFormat::width));
     let row = |index: usize| {
         let (was, is) = (before[index]?, after[index]);

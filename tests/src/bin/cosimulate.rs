@@ -31,7 +31,7 @@ const VECTORS: u64 = 4096;
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 4] = [
+const SMALL: [(&str, Strategy, &str); 5] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -48,6 +48,14 @@ const SMALL: [(&str, Strategy, &str); 4] = [
         r#"{"name": "small_domain", "method": "hermite", "exponents": "2,5,16", "input": "Q2.7",
             "output": "UQ1.8", "form": "centred", "error_budget_ulp": 2, "domain":
             [{"n": 2, "least": 0.75}, {"n": 5, "least": 0.9}, {"n": 16, "least": 0.97}]}"#,
+    ),
+    // Cut and hand-over have fewer bits than x.
+    (
+        "small_ends",
+        Strategy::Exhaustive,
+        r#"{"name": "small_ends", "method": "minimax", "exponents": "1,2,5,16,40", "input": "UQ1.8",
+            "output": "UQ1.8", "cut": "balanced", "segments": 2, "widths":
+            {"cut": "UQ1.6", "hand_over": "UQ1.3"}}"#,
     ),
 ];
 

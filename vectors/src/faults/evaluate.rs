@@ -94,6 +94,11 @@ impl<'a> Model<'a> {
                 let greatest = self.datapath.formats().input.max_bits();
                 Some(self.wide.clone().with_front_end(FrontEnd { greatest, ..front_end }))
             }
+            // A unit beyond the cut may be less than a unit of the ROM's.
+            Fault::Logic(Logic::CutExclusive) => {
+                let front_end = FrontEnd { cut_up: 0, ..*self.datapath.front_end() };
+                Some(self.wide.clone().with_front_end(front_end))
+            }
             _ => None,
         }
     }
@@ -233,15 +238,28 @@ impl Faulty<'_> {
     fn choose(&self, logic: Logic, before: &Signals, held: &mut Signals) {
         let path = self.path();
         match logic {
-            Logic::CutExclusive => self.with_field(FieldName::Cut, 1, before, held),
-            Logic::ShiftMore => self.with_field(FieldName::Shift, 1, before, held),
-            Logic::ShiftLess => {
-                let step = -before.row.get(FieldName::Shift).min(1);
-                self.with_field(FieldName::Shift, step, before, held);
+            Logic::CutExclusive => {
+                let cut = self.model.datapath.front_end().cut(&before.row);
+                self.with_field(FieldName::Cut, cut + 1, before, held);
             }
-            Logic::ShiftOuterMore => self.with_field(FieldName::ShiftOuter, 1, before, held),
+            Logic::ShiftMore => {
+                self.with_field(
+                    FieldName::Shift,
+                    before.row.get(FieldName::Shift) + 1,
+                    before,
+                    held,
+                );
+            }
+            Logic::ShiftLess => {
+                let less = (before.row.get(FieldName::Shift) - 1).max(0);
+                self.with_field(FieldName::Shift, less, before, held);
+            }
+            Logic::ShiftOuterMore => {
+                let more = before.row.get(FieldName::ShiftOuter) + 1;
+                self.with_field(FieldName::ShiftOuter, more, before, held);
+            }
             Logic::HandOverExclusive => {
-                let hand_over = before.row.get(FieldName::HandOver);
+                let hand_over = path.front_end().hand_over(&before.row);
                 if held.region == Region::Polynomial && held.x == hand_over && hand_over > 0 {
                     held.row = before.row.in_outer();
                     held.v = 0;
@@ -271,9 +289,9 @@ impl Faulty<'_> {
     }
 
     /// The rank, with a field of the row as the logic takes it; in the row itself it stays.
-    fn with_field(&self, field: FieldName, step: i64, before: &Signals, held: &mut Signals) {
+    fn with_field(&self, field: FieldName, bits: i64, before: &Signals, held: &mut Signals) {
         let mut row = before.row;
-        row.set(field, row.get(field) + step);
+        row.set(field, bits);
         *held = self.path().advance(self.rank, &Signals { row, ..*before });
         held.row.set(field, before.row.get(field));
     }
@@ -291,7 +309,7 @@ impl Faulty<'_> {
             region => region,
         };
         let (x, row) = (i128::from(held.x), &before.row);
-        let hand_over = i128::from(row.get(FieldName::HandOver));
+        let hand_over = i128::from(front_end.hand_over(row));
         let (start, shift, row) = match front_end.is_outer(x, held.region, hand_over) {
             true => (hand_over, row.shift_outer(), row.in_outer()),
             false => (front_end.one.into(), row.shift(), *row),

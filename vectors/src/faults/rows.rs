@@ -78,18 +78,22 @@ impl<'a> RowFaults<'a> {
 
     /// True when some x of `low..=high` may reach the part of the pipeline that the field belongs to.
     fn is_met(&self, fault: FieldFault, low: i64, high: i64) -> bool {
+        let front_end = self.datapath.front_end();
         let cut = match self.datapath.stages() {
-            Some(_) => self.golden.get(FieldName::Cut),
+            Some(_) => front_end.cut(&self.golden),
             None => i64::MAX,
         };
         match fault.field {
-            FieldName::Cut => low <= cut && cut - 1 <= high,
+            FieldName::Cut => {
+                let place = 1 << front_end.cut_up;
+                low < cut + place && cut - place <= high
+            }
             FieldName::TailA | FieldName::TailB => low < cut,
             FieldName::C3Outer
             | FieldName::C2Outer
             | FieldName::C1Outer
             | FieldName::C0Outer
-            | FieldName::ShiftOuter => high >= cut && low < self.golden.get(FieldName::HandOver),
+            | FieldName::ShiftOuter => high >= cut && low < front_end.hand_over(&self.golden),
             _ => high >= cut,
         }
     }

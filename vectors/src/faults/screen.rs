@@ -8,7 +8,7 @@
 use hw_model::datapath::clamp::clamp;
 use hw_model::datapath::front_end::Region;
 use hw_model::datapath::{Block, Damage, Datapath, Status};
-use hw_model::rom::{FieldName, Row};
+use hw_model::rom::Row;
 
 use super::evaluate::{Faulty, narrower};
 use super::fault::{DataRegister, Defect, Fault, Logic, RoundingLine};
@@ -109,7 +109,7 @@ fn damage(
 /// False where no x of the chunk reaches the part of the pipeline that the fault sits in.
 fn is_met(fault: Fault, datapath: &Datapath, row: &Row, xs: &[i64]) -> bool {
     let (Some(&low), Some(&high)) = (xs.first(), xs.last()) else { return false };
-    let cut = datapath.stages().map_or(i64::MAX, |_| row.get(FieldName::Cut));
+    let cut = datapath.stages().map_or(i64::MAX, |_| datapath.front_end().cut(row));
     match fault {
         Fault::Rounding(RoundingLine::Variable | RoundingLine::Stage(_), _)
         | Fault::Register(_, DataRegister::V | DataRegister::T(_), _) => high >= cut,

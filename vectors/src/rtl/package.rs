@@ -6,7 +6,7 @@
 use askama::Template;
 use hw_model::config::Form;
 use hw_model::datapath::formats::{PolynomialFormats, TailFormats};
-use hw_model::datapath::front_end::{Region, Variable};
+use hw_model::datapath::front_end::{FrontEnd, Region, Variable};
 use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
@@ -201,14 +201,17 @@ fn front_end(datapath: &Datapath) -> Section {
     let x = datapath.tail_x_format().width();
     let formats = datapath.formats();
     let width = |format: Option<QFormat>| format.map_or(1, QFormat::width);
+    let FrontEnd { cut_up, hand_over_up, .. } = *datapath.front_end();
     let shift = width(formats.shift).max(width(formats.shift_outer));
     let (up, drop) = match datapath.front_end().variable {
         Some(Variable::U { up, drop, .. }) => (up, drop),
         Some(Variable::X) | None => (0, 0),
     };
     Section::new("Front end")
-        .integer("CUT_COMPARE_WIDTH", x.max(width(formats.cut)))
-        .integer("HAND_OVER_COMPARE_WIDTH", x.max(width(formats.hand_over)))
+        .integer("CUT_UP", cut_up)
+        .integer("CUT_COMPARE_WIDTH", x.max(width(formats.cut) + cut_up))
+        .integer("HAND_OVER_UP", hand_over_up)
+        .integer("HAND_OVER_COMPARE_WIDTH", x.max(width(formats.hand_over) + hand_over_up))
         .integer("SHIFT_COMMON_WIDTH", shift + 1)
         .integer("U_UP", up)
         .integer("U_DROP", drop)

@@ -137,12 +137,12 @@ fn candidates(datapath: &Datapath, address: u32) -> Vec<Vec<i64>> {
     let count = ((1 << 19) / datapath.rom().depth().max(1) as i64).clamp(16, 1024);
     let greatest = datapath.front_end().greatest;
     let cut = match datapath.stages() {
-        Some(_) => datapath.row(address).get(FieldName::Cut).min(greatest + 1),
+        Some(_) => datapath.front_end().cut(&datapath.row(address)).min(greatest + 1),
         None => greatest + 1,
     };
     let mut dice = Dice::new(address.into());
     // 0 with one segment, so that its part is empty.
-    let hand_over = datapath.row(address).get(FieldName::HandOver).clamp(cut, greatest + 1);
+    let hand_over = datapath.front_end().hand_over(&datapath.row(address)).clamp(cut, greatest + 1);
     let parts = [0..=cut - 1, cut..=hand_over - 1, hand_over..=greatest];
     let filled = parts.into_iter().filter(|part| !part.is_empty());
     filled.map(|part| of_part(part, count, &mut dice)).collect()

@@ -125,7 +125,7 @@ impl<'a> Piece<'a> {
     pub fn variable(&self, x: i64) -> i64 {
         let front_end = self.design.datapath().front_end();
         let (start, shift) = if self.span.outer {
-            (self.row.get(FieldName::HandOver), self.row.shift_outer())
+            (front_end.hand_over(&self.row), self.row.shift_outer())
         } else {
             (front_end.one, self.row.shift())
         };

@@ -1,5 +1,5 @@
-//! Registers whose width nobody states: t3, and what the ROM holds beside coefficients. Their last place is the
-//! output's or that of x, and their integer bits follow from what they take.
+//! Registers whose width nobody states: t3, whose last place is the output's, and the shifts, which are counts. Their
+//! integer bits follow from what they take.
 
 use hw_model::datapath::Signals;
 use hw_model::datapath::reach::Reach;
@@ -43,15 +43,12 @@ pub fn witnesses(design: &Design) -> Result<Vec<Witness>, SizingError> {
         register: "t3",
         format: formats.polynomial.as_ref().map(|polynomial| polynomial.t3),
         taken: datapath.polynomial_reach().map(|reach| reach.lines[2]),
-        last_place: Breaks::Given("output"),
+        last_place: Breaks::OutputHasIt,
         held: |passage| Some(passage.get(4)?.t3),
     };
-    let x = Breaks::Given("x");
     let all = [
         t3,
-        of_rom!(design, "cut", formats.cut, Cut, x),
         of_rom!(design, "shift", formats.shift, Shift, Breaks::NoSuchBit),
-        of_rom!(design, "hand_over", formats.hand_over, HandOver, x),
         of_rom!(design, "shift_outer", formats.shift_outer, ShiftOuter, Breaks::NoSuchBit),
     ];
     let mut found = Vec::new();

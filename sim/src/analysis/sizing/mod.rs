@@ -34,7 +34,7 @@ pub use judge::Place;
 use judge::{Judge, greatest};
 use narrow::State;
 pub use registers::Hardware;
-pub(crate) use registers::{NAMES, of_stated, stated, taken, tight};
+pub(crate) use registers::{NAMES, of_design, of_stated, stated, taken, tight};
 pub use witness::{Breaks, Fewer, Witness};
 
 /// Over which x the error is to be kept.
@@ -257,7 +257,7 @@ fn prove(request: &Request, config: &Config, real: RealError) -> Vec<(Considered
         };
         match made {
             Ok(design) => {
-                let formats = registers::of_stated(&design.widths());
+                let formats = registers::of_design(&design);
                 let hardware = Hardware::of(&design, &formats);
                 first.get_or_insert_with(|| design.clone());
                 all.push((considered(Some(rounding), Verdict::Proved(hardware)), Some(design)));

@@ -9,8 +9,11 @@ use hw_model::rom::{FieldName, Place};
 use serde::Serialize;
 
 /// Their names, in the order of everything here.
-pub const NAMES: [&str; 10] =
-    ["u", "c3", "c2", "c1", "c0", "t1", "t2", "tail_a", "tail_b", "divisor"];
+pub const NAMES: [&str; 12] =
+    ["u", "c3", "c2", "c1", "c0", "t1", "t2", "tail_a", "tail_b", "divisor", "cut", "hand_over"];
+
+/// The first of those that are compared with x: between 0 and 1.
+const CUT: usize = 10;
 
 /// A value for each register that the configuration has.
 pub type Each<T> = [Option<T>; NAMES.len()];
@@ -19,20 +22,33 @@ pub type Each<T> = [Option<T>; NAMES.len()];
 const ROOM: i32 = 4;
 
 pub fn of_stated(widths: &StatedWidths) -> Each<QFormat> {
-    let StatedWidths { u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor } = *widths;
-    [u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor]
+    let StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor } =
+        *widths;
+    [u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor, cut, hand_over]
+}
+
+/// Of a design as it is: with a domain the cut holds its least x, whatever is stated.
+pub fn of_design(design: &Design) -> Each<QFormat> {
+    let mut formats = of_stated(&design.widths());
+    formats[CUT] = design.datapath().formats().cut;
+    formats
 }
 
 pub const fn stated(formats: &Each<QFormat>) -> StatedWidths {
-    let [u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor] = *formats;
-    StatedWidths { u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor }
+    let [u, c3, c2, c1, c0, t1, t2, tail_a, tail_b, divisor, cut, hand_over] = *formats;
+    StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor }
 }
 
-/// The same fraction bits with room for anything.
+/// The same fraction bits with room for anything; an end is at most 1.
 pub fn loosened(formats: &Each<QFormat>) -> Each<QFormat> {
-    formats.map(|format| {
-        let format = format?;
-        QFormat::signed(format.integer_bits() + ROOM, format.fraction_bits()).ok().or(Some(format))
+    std::array::from_fn(|index| {
+        let format = formats[index]?;
+        let (integer, fraction) = (format.integer_bits(), format.fraction_bits());
+        let loose = match index < CUT {
+            true => QFormat::signed(integer + ROOM, fraction),
+            false => QFormat::unsigned(1, fraction),
+        };
+        loose.ok().or(Some(format))
     })
 }
 
@@ -60,6 +76,13 @@ pub fn taken(design: &Design) -> Each<Reach> {
         for (index, power) in [(1, 3), (2, 2), (3, 1), (4, 0)] {
             taken[index] = coefficient(design, power);
         }
+        let greatest = datapath.front_end().greatest;
+        // With a domain its least x is in the place of the cut, and has the bits of x.
+        if design.config().domain.is_empty() {
+            taken[CUT] = field(design, FieldName::Cut, greatest);
+        }
+        let hand_over = datapath.formats().hand_over;
+        taken[11] = hand_over.and_then(|_| field(design, FieldName::HandOver, greatest));
     }
     if let Some(reach) = datapath.tail_reach() {
         taken[7] = field(design, FieldName::TailA, 0);
@@ -79,7 +102,7 @@ fn coefficient(design: &Design, power: usize) -> Option<Reach> {
     let mut outer = field(design, FieldName::OUTER_COEFFICIENTS[power], 0)?;
     for extreme in [&mut outer.least, &mut outer.greatest] {
         let row = design.datapath().row(extreme.address);
-        extreme.x = Some((row.get(FieldName::HandOver) - 1).min(greatest));
+        extreme.x = Some((design.datapath().front_end().hand_over(&row) - 1).min(greatest));
     }
     Some(Reach {
         least: if outer.least.bits < first.least.bits { outer.least } else { first.least },
@@ -103,10 +126,11 @@ pub fn field(design: &Design, name: FieldName, x: i64) -> Option<Reach> {
     Some(Reach { least, greatest })
 }
 
-/// The narrowest formats for what is taken, with the fraction bits of these.
+/// The narrowest formats for what is taken, with the fraction bits of these; where nothing is known to be, these.
 pub fn tight(formats: &Each<QFormat>, taken: &Each<Reach>) -> Each<QFormat> {
     std::array::from_fn(|index| {
-        let (format, reach) = (formats[index]?, taken[index]?);
+        let format = formats[index]?;
+        let Some(reach) = taken[index] else { return Some(format) };
         let (low, high) = (reach.least.bits.min(0).into(), reach.greatest.bits.max(0).into());
         QFormat::for_range(low, high, format.fraction_bits()).ok()
     })
@@ -126,7 +150,9 @@ pub fn value(index: usize, passage: &[Signals]) -> Option<i64> {
         6 => stage2.t2,
         7 => row(FieldName::TailA),
         8 => row(FieldName::TailB),
-        _ => stage1.division.divisor,
+        9 => stage1.division.divisor,
+        10 => row(FieldName::Cut),
+        _ => row(FieldName::HandOver),
     })
 }
 
@@ -147,7 +173,7 @@ impl Hardware {
     /// Of a design whose stated registers have these formats instead of its own.
     pub fn of(design: &Design, formats: &Each<QFormat>) -> Self {
         let width = |format: Option<QFormat>| u64::from(format.map_or(0, QFormat::width));
-        let [u, c3, c2, c1, c0, t1, t2, a, b, _] = *formats;
+        let [u, c3, c2, c1, c0, t1, t2, a, b, _, cut, hand_over] = *formats;
         let input = u64::from(design.config().input.width());
         let v = if u.is_some() { width(u) } else { input };
         let multiplicands = width(c3) + width(t1) + width(t2);
@@ -161,6 +187,8 @@ impl Hardware {
                 FieldName::C0 | FieldName::C0Outer => c0,
                 FieldName::TailA => a,
                 FieldName::TailB => b,
+                FieldName::Cut => cut,
+                FieldName::HandOver => hand_over,
                 _ => Some(field.format),
             };
             if matches!(field.place, Place::Stored { .. }) {

@@ -39,8 +39,8 @@ pub enum Breaks {
     MoreRom(u64),
     /// There is no bit at this end, or the divider's dividend would be no integer.
     NoSuchBit,
-    /// This place was asked for: the output has it, or x, with which the register is compared.
-    Given(&'static str),
+    /// This place was asked for: it is the output's last.
+    OutputHasIt,
     /// No value takes the bit; that none does in the ranges that were proved is another matter.
     Unproved,
 }

@@ -128,10 +128,7 @@ fn logic(logic: Logic) -> Option<Change> {
         Logic::ShiftOuterMore => {
             front_end("SHIFT_BITS'(shift_outer_i)", "SHIFT_BITS'(shift_outer_i) + 1'b1")
         }
-        Logic::HandOverExclusive => front_end(
-            "(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
-            "(x) <= blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
-        ),
+        Logic::HandOverExclusive => front_end("'(x) < ", "'(x) <= "),
         Logic::NoInputClamp => front_end("above_one ? blysk_pkg::X_GREATEST", "1'b0 ? '0"),
         Logic::NegativeAsUnsigned => None,
         Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),

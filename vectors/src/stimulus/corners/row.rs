@@ -6,7 +6,6 @@ use hw_model::datapath::front_end::Region;
 use hw_model::datapath::{Register, Signals};
 use hw_model::design::Design;
 use hw_model::quantise::{real, round_scaled};
-use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 
 use super::lattice::{Lattice, climb, powers_apart};
@@ -140,9 +139,9 @@ impl<'a> Survey<'a> {
     fn new(design: &'a Design, address: u32, effort: Effort) -> Self {
         let datapath = design.datapath();
         let greatest = datapath.front_end().greatest;
-        let cut = datapath.stages().map(|_| datapath.row(address).get(FieldName::Cut));
+        let cut = datapath.stages().map(|_| datapath.front_end().cut(&datapath.row(address)));
         let from = cut.unwrap_or(greatest + 1);
-        let hand_over = datapath.row(address).get(FieldName::HandOver).min(greatest + 1);
+        let hand_over = datapath.front_end().hand_over(&datapath.row(address)).min(greatest + 1);
         let hand_over = Some(hand_over).filter(|&hand_over| hand_over > from);
         let first = hand_over.unwrap_or(from);
         let fraction = design.config().input.fraction_bits();

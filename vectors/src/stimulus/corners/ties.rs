@@ -3,7 +3,7 @@
 //! A line drops d bits; it is a tie when they are exactly 2^(d−1). The lines keep only the rounded
 //! result, so the sum before the rounding is computed again by the same line with every bit kept.
 
-use hw_model::datapath::front_end::{Region, Variable};
+use hw_model::datapath::front_end::{FrontEnd, Region, Variable};
 use hw_model::datapath::stage::{Fractions, MultiplyAdd};
 use hw_model::datapath::{Datapath, Signals};
 use hw_model::rom::FieldName;
@@ -13,7 +13,7 @@ use hw_model::rounding::Rounding;
 #[derive(Debug, Clone, Copy)]
 pub enum Line {
     /// u = (1 − x)·2^e.
-    Variable { one: i64, up: u32, drop: u32 },
+    Variable { front_end: FrontEnd, up: u32, drop: u32 },
     /// A multiply-add with all its bits, of which the real one drops `drop`.
     MultiplyAdd { register: &'static str, exact: MultiplyAdd, drop: u32 },
     /// The quotient, of which a guard bit and a sticky bit are dropped.
@@ -42,7 +42,7 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
     if let Some(Variable::U { up, drop, .. }) = front_end.variable
         && drop > 0
     {
-        lines.push(Line::Variable { one: front_end.one, up, drop });
+        lines.push(Line::Variable { front_end: *front_end, up, drop });
     }
     lines
 }
@@ -96,12 +96,12 @@ impl Line {
     /// last rank holds.
     pub fn distance(&self, last: &Signals) -> f64 {
         match self {
-            Self::Variable { one, up, drop } => {
+            Self::Variable { front_end, up, drop } => {
                 let row = &last.row;
-                let hand_over = row.get(FieldName::HandOver);
+                let hand_over = front_end.hand_over(row);
                 let (start, shift) = match last.x < hand_over {
                     true => (hand_over, row.shift_outer()),
-                    false => (*one, row.shift()),
+                    false => (front_end.one, row.shift()),
                 };
                 from_half(i128::from(start - last.x) << (shift + up), *drop)
             }

@@ -14,7 +14,6 @@ use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::quantise::real;
-use hw_model::rom::FieldName;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -111,7 +110,8 @@ pub fn seam_report(design: &Design, addresses: &[u32], progress: &dyn Progress) 
                 design.datapath().evaluate_block(address, xs, block);
             };
             let fraction = design.config().output.fraction_bits();
-            let hand_over = design.datapath().row(address).get(FieldName::HandOver);
+            let hand_over =
+                design.datapath().front_end().hand_over(&design.datapath().row(address));
             let mut scan = scan::scan(evaluate, first, last, fraction);
             scan.see_segments(design.datapath(), address, hand_over, (first, last));
             progress.advance(scan.pairs);

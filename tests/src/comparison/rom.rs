@@ -1,0 +1,247 @@
+//! The ROM against the real rows it was made from, in exact arithmetic.
+
+use hw_model::config::{Cut, Form, Tail};
+use hw_model::design::{Design, Outer, RealRow};
+use hw_model::fit::minimax::{self, Range};
+use hw_model::rom::{FieldName, Row};
+use hw_model::rounding::Rounding;
+use num_bigint::BigInt;
+
+use super::{Complaint, Kind, complain, size};
+use crate::naive::Exact;
+
+/// The ROM integers follow from the real rows: each coefficient is rounded to the nearest (a tie to
+/// the even one), the cut is the least x that is not below 1 − s, the shift is ⌊log2 n⌋.
+///
+/// # Errors
+/// The first field that does not.
+pub fn rom(design: &Design) -> Result<(), Complaint> {
+    for (real, row) in design.rows().iter().zip(design.rom().rows()) {
+        // Counted up, because a logarithm may round up to the next integer.
+        let shift = (1..64).take_while(|&e| 2_f64.powi(e) <= real.exponent).count() as i32;
+        let fitted = design.config().cut == Cut::Balanced || design.config().segments == 2;
+        let shift = if fitted { real.shift as i32 } else { shift };
+        if fitted {
+            segments(design, real, row)?;
+        }
+        let mut wanted = Vec::new();
+        if let Some(cubic) = &real.polynomial {
+            let coefficients = match design.config().form {
+                Form::Power => {
+                    let k = &cubic.power;
+                    [k.d, k.c, k.b, k.a]
+                }
+                Form::Centred => {
+                    let k = &cubic.centred;
+                    let scale = |power: i32| 2_f64.powi(-power * shift);
+                    [1.0, k.k1 * scale(1), k.k2 * scale(2), k.k3 * scale(3)]
+                }
+            };
+            let names = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
+            for (name, value) in names.into_iter().zip(coefficients) {
+                wanted.push((name, Exact::of_f64(value)));
+            }
+            if design.config().form == Form::Centred {
+                wanted.push((FieldName::Shift, Exact::of_bits(shift, 0)));
+            }
+        }
+        if let Some(rational) = &real.tail {
+            wanted.push((FieldName::TailA, Exact::of_f64(rational.a)));
+            wanted.push((FieldName::TailB, Exact::of_f64(rational.b)));
+        }
+        for (name, value) in wanted {
+            let fraction =
+                design.rom().layout().field(name).map_or(0, |field| field.format.fraction_bits());
+            let bits = value.into_register(fraction, Rounding::NearestEven)
+                + steps_of(design, real.exponent, name);
+            if bits != BigInt::from(row.get(name)) {
+                let text = format!(
+                    "n = {}: ROM field {name} is {}, the real number rounds to {bits}",
+                    real.exponent,
+                    row.get(name)
+                );
+                return complain(Kind::Rom, text);
+            }
+        }
+        if let Some(Outer { segment, shift }) = &real.outer {
+            let scale = |power: i32| 2_f64.powi(-power * *shift as i32);
+            for (power, name) in FieldName::OUTER_COEFFICIENTS.into_iter().enumerate() {
+                let value = Exact::of_f64(segment.c[power] * scale(power as i32));
+                let fraction =
+                    design.rom().layout().field(name).map_or(0, |f| f.format.fraction_bits());
+                let steps = steps_of(design, real.exponent, name);
+                if value.into_register(fraction, Rounding::NearestEven) + steps
+                    != BigInt::from(row.get(name))
+                {
+                    let text =
+                        format!("n = {}: ROM field {name} is {}", real.exponent, row.get(name));
+                    return complain(Kind::Rom, text);
+                }
+            }
+        }
+        if let Some(first) = first_presented(design, real.exponent) {
+            if first != end(design, row, FieldName::Cut) {
+                let text = format!("n = {}: the domain does not begin at {first}", real.exponent);
+                return complain(Kind::Rom, text);
+            }
+        } else if !fitted {
+            cut(design, real, row)?;
+        }
+    }
+    Ok(())
+}
+
+/// An end of a segment in the ROM, in the unit of x.
+fn end(design: &Design, row: &Row, name: FieldName) -> BigInt {
+    let format = design.rom().layout().field(name).map_or(design.config().input, |f| f.format);
+    Exact::of_bits(row.get(name), format.fraction_bits())
+        .into_register(design.config().input.fraction_bits(), Rounding::Floor)
+}
+
+/// An end in the unit of x, as the nearest number of the stated format (a tie to the even one); a cut above a divider is
+/// not above what it was.
+fn stated_end(design: &Design, name: FieldName, exact: BigInt) -> BigInt {
+    let config = design.config();
+    let stated = match name {
+        FieldName::Cut => config.widths.cut,
+        _ => config.widths.hand_over,
+    };
+    let Some(format) = stated else { return exact };
+    let input = config.input.fraction_bits();
+    let divides = config.tail == Tail::Rational;
+    let mode = if divides { Rounding::Floor } else { Rounding::NearestEven };
+    let stated = Exact::of_bits(exact, input).into_register(format.fraction_bits(), mode);
+    Exact::of_bits(stated, format.fraction_bits()).into_register(input, Rounding::Floor)
+}
+
+/// The first x of an exponent's domain, which stands in the place of the cut.
+fn first_presented(design: &Design, exponent: f64) -> Option<BigInt> {
+    let config = design.config();
+    let presented = config.domain.iter().find(|presented| presented.n == exponent)?;
+    let fraction = config.input.fraction_bits();
+    Some(Exact::of_f64(presented.least).into_register(fraction, Rounding::Floor))
+}
+
+/// What the configuration moves a field by, beyond rounding.
+fn steps_of(design: &Design, exponent: f64, name: FieldName) -> i32 {
+    let steps = design.config().coefficient_steps.iter().find(|steps| steps.n == exponent);
+    let field = steps.and_then(|steps| steps.moved().find(|&(field, _)| field == name));
+    field.map_or(0, |(_, steps)| steps)
+}
+
+/// Cut and hand-over are the least x that are not below the ends of the fitted segments (in fewer bits, the nearest to
+/// these), and each segment is moved up as far as keeps it below 1.
+fn segments(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint> {
+    let config = design.config();
+    let range = if config.cut == Cut::Balanced { Range::Balanced } else { Range::Level(config.q) };
+    let count = config.segments as usize;
+    let fitted = minimax::segments(real.exponent, count, range)
+        .map_err(|error| Complaint { kind: Kind::Rom, text: error.to_string() })?;
+    let least_x = |s: f64| {
+        -(Exact::of_f64(s) - Exact::of_bits(1, 0))
+            .into_register(config.input.fraction_bits(), Rounding::Floor)
+    };
+    let last = *fitted.ends.last().expect("a fit has a segment");
+    let first = if count == 2 && fitted.further.is_empty() { last / 2.0 } else { fitted.ends[0] };
+    let ends = [(FieldName::Cut, last), (FieldName::HandOver, first)];
+    let exact = ends.map(|(_, s)| least_x(s));
+    let stated = ends.map(|(name, s)| stated_end(design, name, least_x(s)));
+    for ((name, _), stated) in ends.into_iter().zip(&stated).take(count) {
+        let presented = first_presented(design, real.exponent).filter(|_| name == FieldName::Cut);
+        let (wanted, got) = (presented.unwrap_or_else(|| stated.clone()), end(design, row, name));
+        if wanted != got {
+            let text = format!("n = {}: {name} is {got}, not {wanted}", real.exponent);
+            return complain(Kind::Rom, text);
+        }
+    }
+    let length = |end: &BigInt| {
+        let bits = i64::try_from(end).expect("an end is at most 1");
+        1.0 - bits as f64 * config.input.ulp()
+    };
+    let start = length(&stated[1]);
+    // Where an end had to move, the lengths are those between the new ends.
+    let [whole, inner] = match exact[..count] == stated[..count] {
+        true => [last, first],
+        false => [length(&stated[0]), length(&stated[count - 1])],
+    };
+    let lengths = [(FieldName::Shift, inner), (FieldName::ShiftOuter, whole - start)];
+    for (name, length) in lengths.into_iter().take(count).filter(|_| config.form == Form::Centred) {
+        let (reach, most) = (length * 2_f64.powi(row.get(name) as i32), 1.0 - 1.0 / 128.0);
+        let kept = reach <= most || row.get(name) == 0;
+        if !kept || (reach * 2.0 <= most && row.get(name) < 62) {
+            let text = format!(
+                "n = {}: {name} {} brings {length} to {reach}",
+                real.exponent,
+                row.get(name)
+            );
+            return complain(Kind::Rom, text);
+        }
+    }
+    Ok(())
+}
+
+fn cut(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint> {
+    let config = design.config();
+    let Some(cubic) = &real.polynomial else {
+        return Ok(());
+    };
+    let got = end(design, row, FieldName::Cut);
+    // Only where the multipliers are narrow.
+    let greatest_u =
+        if config.multiplier_operand_bits.is_some() { 2.0 - 1.0 / 128.0 } else { f64::INFINITY };
+    let s = match config.cut {
+        Cut::Epicentre | Cut::Balanced => real.epicentre,
+        Cut::Minimum => cubic
+            .centred
+            .first_minimum()
+            .unwrap_or(1.0)
+            .min(greatest_u / f64::from(real.shift).exp2())
+            .clamp(real.epicentre, 1.0),
+    };
+    // Half an output ulp, and where the arithmetic here cannot tell a value from it.
+    let nothing = config.output.ulp() * (0.5 + 1e-9);
+    let value = |s| cubic.centred.value_at_s(s);
+    // A Q as small as that ends the epicentre where there is nothing to show already.
+    let s = if value(real.epicentre) < nothing { real.epicentre } else { s };
+    if config.cut == Cut::Minimum && value(s) < nothing && s > real.epicentre {
+        let got = i64::try_from(got).expect("a cut is at most 1");
+        return cut_at_nothing(design, real, got, s);
+    }
+    // The least integer that is not below (1 − s)·2^fraction: minus the floor of minus it.
+    let below = Exact::of_f64(s) - Exact::of_bits(1, 0);
+    let wanted = -below.into_register(config.input.fraction_bits(), Rounding::Floor);
+    let wanted = stated_end(design, FieldName::Cut, wanted);
+    if wanted != got {
+        let text = format!("n = {}: the cut is {got}, not {wanted}", real.exponent);
+        return complain(Kind::Rom, text);
+    }
+    Ok(())
+}
+
+/// A polynomial that falls to half an output ulp is cut there: at the cut it is that much or more, at
+/// the next x below it is not, unless that lies beyond the lowest s already. In fewer bits it is the nearest to one of
+/// which that is true. (The slope times a few f64 ulp is what the arithmetic here may be off.)
+fn cut_at_nothing(design: &Design, real: &RealRow, got: i64, lowest: f64) -> Result<(), Complaint> {
+    let config = design.config();
+    let half = config.output.ulp() / 2.0;
+    let value = |x: i64| {
+        let s = 1.0 - x as f64 * config.input.ulp();
+        let off = 1e-14 * size(real, s, true);
+        (real.polynomial.map_or(0.0, |cubic| cubic.centred.value_at_s(s)), off)
+    };
+    let input = config.input.fraction_bits();
+    let dropped = config.widths.cut.map_or(0, |stated| input - stated.fraction_bits());
+    let half_a_place = (1_i64 << dropped) / 2;
+    let next = got - half_a_place - 1;
+    let ((at, slack), (below, _)) = (value(got + half_a_place), value(next));
+    let next_s = 1.0 - next as f64 * config.input.ulp();
+    if at < half - slack || (next_s <= lowest && below > half + slack) {
+        let text = format!(
+            "n = {}: the cut {got} is not where the polynomial has fallen to {half}: {at} there, \
+             {below} below it",
+            real.exponent
+        );
+        return complain(Kind::Rom, text);
+    }
+    Ok(())
+}
