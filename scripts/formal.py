@@ -112,8 +112,8 @@ ALL = [
                 needs="HAS_POLYNOMIAL"),
             Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
                 "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
-            Bug("hand-over not included", "blysk_front_end.sv", "(x) < blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)",
-                "(x) <= blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i)", needs="TWO_SEGMENTS"),
+            Bug("hand-over not included", "blysk_front_end.sv", "'(x) < ", "'(x) <= ",
+                needs="TWO_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
             Bug("cut not of the row", "front_end.sv", ".cut_o(cut), ", ".cut_o(), ", needs="SHIFT_STORED"),
         ],

@@ -77,9 +77,9 @@ pub struct StatedWidths {
     /// Result of stage 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub t2: Option<QFormat>,
-    /// The least x at which the polynomial answers, rounded to the nearest (down where a divider answers below it):
-    /// unsigned, at most one integer bit, and no more fraction bits than x. With a domain, whose least x takes the place of the cut with all bits of x,
-    /// it says only below what the domain may not begin.
+    /// The least x at which the polynomial answers, rounded down: unsigned, at most one integer bit, and no more
+    /// fraction bits than x. With a domain, whose least x takes its place with all bits of x, it still says below
+    /// what the domain may not begin, and which lengths the shifts are fitted to.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cut: Option<QFormat>,
     /// The least x at which the first of two segments answers, rounded to the nearest; a format as that of the cut.

@@ -249,7 +249,7 @@ fn state_widths(random: &mut Random, config: &mut Config) {
 /// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is needed.
 fn coarser(random: &mut Random, format: QFormat) -> Option<QFormat> {
     let most = format.fraction_bits();
-    let fewer = random.integer(0, i64::from(most) - 1).min(random.integer(0, most.into())) as u32;
+    let fewer = random.integer(0, most.into()).min(random.integer(0, most.into())) as u32;
     let integer = if random.once_in(12) { format.integer_bits() } else { 1 };
     QFormat::unsigned(integer, most - fewer).ok()
 }

@@ -246,8 +246,8 @@ fn a_stated_width_that_could_overflow_names_register_exponent_and_need() {
         refused(&json!({"widths": {register: narrow}}), &words);
     }
     refused(
-        &json!({"tail": "zero", "widths": {"cut": "UQ0.2"}}),
-        &["register cut", "stated as UQ0.2", "could overflow at n = 6", "it needs UQ1.2"],
+        &json!({"method": "minimax", "tail": "zero", "segments": 2, "widths": {"hand_over": "UQ0.2"}}),
+        &["register hand_over", "stated as UQ0.2", "could overflow at n = ", "it needs UQ1.2"],
     );
     refused(
         &json!({"input": "UQ1.20", "output": "UQ1.8", "widths": {"divisor": "UQ10.10"}}),
@@ -282,6 +282,11 @@ fn the_narrowest_and_the_widest_make_hardware_that_agrees() {
         json!({"input": "Q1.1", "output": "UQ0.1", "exponents": "1..=4"}),
         json!({"output": "UQ0.1"}),
         json!({"output": "UQ0.2", "rounding": "floor", "error_budget_ulp": 1.5}),
+        // Segments that are rounded away, and a u with more bits than x.
+        json!({"method": "minimax", "tail": "zero", "cut": "balanced", "exponents": "5,400", "input": "UQ1.12",
+               "widths": {"u": "UQ1.16", "cut": "UQ1.4"}}),
+        json!({"method": "minimax", "tail": "zero", "segments": 2, "exponents": "40", "input": "UQ1.12",
+               "widths": {"u": "UQ1.20", "cut": "UQ1.2", "hand_over": "UQ1.2"}}),
         json!({"input": "UQ1.62"}),
         json!({"input": "UQ1.62", "form": "power"}),
         json!({"input": "Q2.61", "tail": "zero", "cut": "minimum"}),

@@ -140,7 +140,7 @@ fn a_tie_is_a_tie() {
             let sum = product + (i128::from(row.get(FieldName::C2)) << (common_place - c2));
             (sum.rem_euclid(1 << drop) - (1 << (drop - 1))).abs()
         };
-        let cut = row.get(FieldName::Cut);
+        let cut = design.datapath().front_end().cut(row);
         let answered = |x: &i64| (cut..=*range(&design).end()).contains(x);
         let nearest = range(&design).filter(answered).map(distance).min();
         let found = xs(&samples).into_iter().filter(answered).map(distance).min();

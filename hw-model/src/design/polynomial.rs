@@ -283,6 +283,7 @@ fn front_end_fields(
     parts: &mut Parts,
 ) -> Result<(), DesignError> {
     let integer_format = |register, of: fn(&RealRow) -> i64, fraction, stated: Option<QFormat>| {
+        // Backwards, for the first of equal ones.
         let (bits, exponent) = rows
             .iter()
             .rev()

@@ -1,4 +1,4 @@
-//! The same real rows in other widths.
+//! The same polynomials in other widths. Their ends are those that the widths of cut and hand-over can say.
 //!
 //! Rows are what takes time to fit, and a search tries thousands of widths and integers.
 

@@ -228,6 +228,7 @@ fn breaks(witness: &Witness) -> String {
         }
         Breaks::MoreRom(bits) => format!("{bits} ROM bits"),
         Breaks::NoSuchBit => "no such bit".to_owned(),
+        Breaks::NoHardware => "no such hardware".to_owned(),
         Breaks::OutputHasIt => "the output has it".to_owned(),
         Breaks::Unproved => "no value; not proved".to_owned(),
     }

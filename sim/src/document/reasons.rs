@@ -1,6 +1,6 @@
 //! Why a register is as wide as it is, in words.
 
-use hw_model::config::{Config, Tail};
+use hw_model::config::Config;
 use hw_model::datapath::front_end::Variable;
 use hw_model::datapath::{Datapath, Register};
 use hw_model::design::Share;
@@ -55,8 +55,12 @@ impl<'a> Reasons<'a> {
             }
             name if rank == 0 && FieldName::ALL.iter().any(|field| field.name() == name) => {
                 return match name {
-                    "cut" => self.rounded_end("cut", self.cut_up()),
-                    "hand_over" => self.rounded_end("point", self.hand_over_up()),
+                    "cut" if !self.config().domain.is_empty() => {
+                        "in the ROM: down, to the last x that is not above the domain's least"
+                            .to_owned()
+                    }
+                    "cut" => rounded_end("cut", "down", self.cut_up()),
+                    "hand_over" => rounded_end("point", "nearest_even", self.hand_over_up()),
                     "shift" | "shift_outer" => "no".to_owned(),
                     _ => "in the ROM: nearest_even".to_owned(),
                 };
@@ -103,16 +107,6 @@ impl<'a> Reasons<'a> {
 
     fn hand_over_up(&self) -> u32 {
         self.datapath().front_end().hand_over_up
-    }
-
-    /// How an end of a segment, in the ROM, comes from the real one.
-    fn rounded_end(&self, end: &str, up: u32) -> String {
-        let first = format!("in the ROM: up, to the first x that is not below the real {end}");
-        match self.config().tail {
-            _ if up == 0 => first,
-            Tail::Zero => format!("{first}; then nearest_even to the stated bits"),
-            Tail::Rational => format!("{first}; then down to the stated bits"),
-        }
     }
 
     fn digits(&self, rank: usize, held: &Held, format: QFormat) -> String {
@@ -190,6 +184,12 @@ impl<'a> Reasons<'a> {
 fn above(value: f64, other: &str) -> String {
     let mut written = (3..12).map(|count| places(value, count));
     written.find(|text| text != other).unwrap_or_else(|| places(value, 12))
+}
+
+/// How an end of a segment, in the ROM, comes from the real one.
+fn rounded_end(end: &str, mode: &str, up: u32) -> String {
+    let first = format!("in the ROM: up, to the first x that is not below the real {end}");
+    if up == 0 { first } else { format!("{first}; then {mode} to the stated bits") }
 }
 
 /// The width of an end of a segment, which x is compared with.

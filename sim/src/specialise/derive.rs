@@ -170,45 +170,50 @@ fn without_zeros(design: &Design, name: FieldName, format: QFormat) -> QFormat {
 
 #[cfg(test)]
 mod tests {
+    use hw_model::design::RealRow;
+
     use super::*;
 
-    /// Two segments whose ends have fewer bits than x.
-    fn source() -> Design {
-        let json = r#"{"name": "ends", "method": "minimax", "segments": 2, "cut": "balanced",
+    /// Ends with fewer bits than x: of two segments, and above a divider.
+    const SOURCES: [&str; 2] = [
+        r#"{"name": "ends", "method": "minimax", "segments": 2, "cut": "balanced",
             "exponents": "2,5,40", "input": "UQ1.12", "output": "UQ1.10",
-            "widths": {"cut": "UQ1.6", "hand_over": "UQ1.4"}}"#;
-        Design::new(Config::from_json(json).unwrap()).unwrap()
-    }
+            "widths": {"cut": "UQ1.6", "hand_over": "UQ1.4"}}"#,
+        r#"{"name": "tail", "method": "hermite", "tail": "rational", "exponents": "2,64",
+            "input": "UQ1.12", "output": "UQ1.10", "widths": {"cut": "UQ1.5"}}"#,
+    ];
 
     #[test]
     fn narrow_ends_stay_where_they_are() {
-        let source = source();
-        let greatest = source.datapath().front_end().greatest;
-        let ends =
-            source.rows().iter().map(|row| [0, row.cut, row.cut + 3, row.hand_over, greatest]);
-        let ends: Vec<[i64; 5]> = ends.collect();
-        for place in 0..5 {
-            let demand = |(row, ends): (&hw_model::design::RealRow, &[i64; 5])| Demand {
-                exponent: row.exponent,
-                least: ends[place] as f64 * source.config().input.ulp(),
-                greatest: 1.0,
-                mesh: false,
-            };
-            let demands: Vec<Demand> = source.rows().iter().zip(&ends).map(demand).collect();
-            let rows = rows(&source, &demands).unwrap();
-            let small = derive(&source, &rows, "small").unwrap();
-            assert_eq!(small.config().domain.is_empty(), place == 0, "{:?}", small.config().domain);
-            for (address, row) in (0..).zip(&rows) {
-                for x in row.least..=greatest {
-                    let [was, is] = [&source, &small].map(|design| {
-                        design.datapath().passage(address, x).last().unwrap().intensity
-                    });
-                    assert_eq!(was, is, "n = {}, x {x}", row.demand.exponent);
-                }
+        for json in SOURCES {
+            let source = Design::new(Config::from_json(json).unwrap()).unwrap();
+            for place in 0..5 {
+                same_from(&source, place);
             }
-            let cut = small.datapath().formats().cut.unwrap();
-            let fraction = if place == 0 { 6 } else { 12 };
-            assert_eq!(cut.fraction_bits(), fraction, "{cut}");
         }
+    }
+
+    /// Of each row: 0, its cut, a little above it, its hand-over, and the greatest x.
+    fn same_from(source: &Design, place: usize) {
+        let greatest = source.datapath().front_end().greatest;
+        let demand = |row: &RealRow| {
+            let ends = [0, row.cut, row.cut + 3, row.hand_over.max(row.cut), greatest];
+            let least = ends[place] as f64 * source.config().input.ulp();
+            Demand { exponent: row.exponent, least, greatest: 1.0, mesh: false }
+        };
+        let demands: Vec<Demand> = source.rows().iter().map(demand).collect();
+        let rows = rows(source, &demands).unwrap();
+        let small = derive(source, &rows, "small").unwrap();
+        assert_eq!(small.config().domain.is_empty(), place == 0, "{:?}", small.config().domain);
+        for (address, row) in (0..).zip(&rows) {
+            for x in row.least..=greatest {
+                let [was, is] =
+                    [source, &small].map(|d| d.datapath().evaluate(address, x).intensity);
+                assert_eq!(was, is, "n = {}, x {x}", row.demand.exponent);
+            }
+        }
+        let cut = small.datapath().formats().cut.unwrap().fraction_bits();
+        let stated = source.datapath().formats().cut.unwrap().fraction_bits();
+        assert_eq!(cut, if place == 0 { stated } else { 12 });
     }
 }

@@ -7,7 +7,6 @@ use std::fmt;
 use hw_model::datapath::{Block, Register};
 use hw_model::design::{Design, RealRow};
 use hw_model::format::QFormat;
-
 use num_bigint::BigInt;
 
 use crate::naive::Naive;

@@ -1,6 +1,6 @@
 //! The ROM against the real rows it was made from, in exact arithmetic.
 
-use hw_model::config::{Cut, Form, Tail};
+use hw_model::config::{Cut, Form};
 use hw_model::design::{Design, Outer, RealRow};
 use hw_model::fit::minimax::{self, Range};
 use hw_model::rom::{FieldName, Row};
@@ -98,18 +98,16 @@ fn end(design: &Design, row: &Row, name: FieldName) -> BigInt {
         .into_register(design.config().input.fraction_bits(), Rounding::Floor)
 }
 
-/// An end in the unit of x, as the nearest number of the stated format (a tie to the even one); a cut above a divider is
-/// not above what it was.
+/// An end in the unit of x, as the stated format has it: the cut rounded down, the hand-over to the nearest (a tie to the
+/// even one).
 fn stated_end(design: &Design, name: FieldName, exact: BigInt) -> BigInt {
-    let config = design.config();
-    let stated = match name {
-        FieldName::Cut => config.widths.cut,
-        _ => config.widths.hand_over,
+    let widths = &design.config().widths;
+    let (stated, mode) = match name {
+        FieldName::Cut => (widths.cut, Rounding::Floor),
+        _ => (widths.hand_over, Rounding::NearestEven),
     };
     let Some(format) = stated else { return exact };
-    let input = config.input.fraction_bits();
-    let divides = config.tail == Tail::Rational;
-    let mode = if divides { Rounding::Floor } else { Rounding::NearestEven };
+    let input = design.config().input.fraction_bits();
     let stated = Exact::of_bits(exact, input).into_register(format.fraction_bits(), mode);
     Exact::of_bits(stated, format.fraction_bits()).into_register(input, Rounding::Floor)
 }
@@ -158,13 +156,15 @@ fn segments(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint>
         let bits = i64::try_from(end).expect("an end is at most 1");
         1.0 - bits as f64 * config.input.ulp()
     };
-    let start = length(&stated[1]);
-    // Where an end had to move, the lengths are those between the new ends.
-    let [whole, inner] = match exact[..count] == stated[..count] {
-        true => [last, first],
-        false => [length(&stated[0]), length(&stated[count - 1])],
-    };
-    let lengths = [(FieldName::Shift, inner), (FieldName::ShiftOuter, whole - start)];
+    let start = length(&exact[1]);
+    let mut lengths = [(FieldName::Shift, first), (FieldName::ShiftOuter, last - start)];
+    // Where an end had to move, the lengths are those between the new ends, if there is anything between them.
+    if exact[..count] != stated[..count] {
+        let [whole, inner] = [length(&stated[0]), length(&stated[count - 1])];
+        for ((_, length), new) in lengths.iter_mut().zip([inner, whole - inner]) {
+            *length = if new > 0.0 { new } else { *length };
+        }
+    }
     for (name, length) in lengths.into_iter().take(count).filter(|_| config.form == Form::Centred) {
         let (reach, most) = (length * 2_f64.powi(row.get(name) as i32), 1.0 - 1.0 / 128.0);
         let kept = reach <= most || row.get(name) == 0;
@@ -219,7 +219,7 @@ fn cut(design: &Design, real: &RealRow, row: &Row) -> Result<(), Complaint> {
 }
 
 /// A polynomial that falls to half an output ulp is cut there: at the cut it is that much or more, at
-/// the next x below it is not, unless that lies beyond the lowest s already. In fewer bits it is the nearest to one of
+/// the next x below it is not, unless that lies beyond the lowest s already. In fewer bits it is the next below one of
 /// which that is true. (The slope times a few f64 ulp is what the arithmetic here may be off.)
 fn cut_at_nothing(design: &Design, real: &RealRow, got: i64, lowest: f64) -> Result<(), Complaint> {
     let config = design.config();
@@ -231,9 +231,9 @@ fn cut_at_nothing(design: &Design, real: &RealRow, got: i64, lowest: f64) -> Res
     };
     let input = config.input.fraction_bits();
     let dropped = config.widths.cut.map_or(0, |stated| input - stated.fraction_bits());
-    let half_a_place = (1_i64 << dropped) / 2;
-    let next = got - half_a_place - 1;
-    let ((at, slack), (below, _)) = (value(got + half_a_place), value(next));
+    let greatest = got + (1_i64 << dropped) - 1;
+    let next = got - 1;
+    let ((at, slack), (below, _)) = (value(greatest), value(next));
     let next_s = 1.0 - next as f64 * config.input.ulp();
     if at < half - slack || (next_s <= lowest && below > half + slack) {
         let text = format!(

@@ -12,11 +12,14 @@ use hw_model::format::QFormat;
 use hw_model::highlight::phong;
 use hw_model::rom::FieldName;
 
-const ASKED: [(&str, f64); 4] = [
+const ASKED: [(&str, f64); 6] = [
     ("--exponents 1..=12 --input UQ1.10 --output UQ1.10 --error 0.0067 --range all", 0.0067),
     ("--exponents 2,5,8.5,16 --input UQ1.10 --output UQ1.8 --error 0.008 --range epicentre", 0.008),
     ("--exponents 1..=8 --input UQ0.9 --output UQ0.9 --error 0.02 --range 0.1", 0.02),
     ("--exponents 1..=6 --input UQ1.10 --output UQ1.8 --error 0.2", 0.2),
+    // A cut in fewer bits, far below where the fit ends.
+    ("--exponents 40 --input UQ1.10 --output UQ1.8 --error 0.02", 0.02),
+    ("--exponents 3,30 --input UQ1.8 --output UQ1.10 --error 0.03", 0.03),
 ];
 
 /// Prints the witnesses and writes the configuration.

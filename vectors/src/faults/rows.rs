@@ -86,7 +86,7 @@ impl<'a> RowFaults<'a> {
         match fault.field {
             FieldName::Cut => {
                 let place = 1 << front_end.cut_up;
-                low < cut + place && cut - place <= high
+                low - place < cut && cut - place <= high
             }
             FieldName::TailA | FieldName::TailB => low < cut,
             FieldName::C3Outer

@@ -54,7 +54,10 @@ pub fn spans(design: &Design, address: u32, range: Range) -> Vec<Span> {
     let config = design.config();
     let greatest = design.datapath().front_end().greatest;
     let cut = match (range, config.cut) {
-        (Range::Fitted, Cut::Minimum) => row.cut.max(row.first_of_epicentre(config)),
+        // A stated cut may be below where the epicentre ends.
+        (Range::Fitted, Cut::Minimum | Cut::Epicentre) => {
+            row.cut.max(row.first_of_epicentre(config))
+        }
         _ => row.cut,
     };
     let cut = cut.max(0);

@@ -1,8 +1,8 @@
 //! The measured error of a design over the range that was asked for.
 //!
 //! A few hundred x of each row decide first, and every x at which anything ever failed; who passes them is
-//! measured at every x of the range. Below the cut a zero tail errs by x^n, most at the x beside the cut, so
-//! that the x further down need no look.
+//! measured at every x of the range. Below its cut, which is not the same in all designs, a zero tail errs by x^n, most
+//! at the x beside the cut, so that the x further down need no look.
 
 use hw_model::config::Tail;
 use hw_model::datapath::Block;
@@ -40,10 +40,10 @@ struct Chosen {
     powers: Vec<f64>,
 }
 
-/// What designs of the same real rows are measured by.
+/// What designs of the same polynomials are measured by, wherever their rows end.
 pub struct Judge {
-    /// The first and the last x of each row.
-    spans: Vec<(i64, i64)>,
+    /// The least x of each row that was asked for.
+    least: Vec<i64>,
     chosen: Vec<Chosen>,
     /// Addresses, those that failed last in front.
     order: Vec<u32>,
@@ -51,28 +51,21 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// For designs with the rows of this one; `least` is the least x of each.
+    /// For designs with the polynomials of this one; `least` is the least x of each row.
     pub fn new(design: &Design, least: &[i64], error: f64) -> Self {
-        let greatest = design.datapath().front_end().greatest;
-        let spans: Vec<(i64, i64)> = design
-            .rows()
-            .iter()
-            .zip(least)
-            .map(|(row, &least)| {
-                let all = design.config().tail == Tail::Rational;
-                (if all { least } else { least.max(row.cut - 1) }.min(greatest), greatest)
-            })
-            .collect();
-        let order = (0..spans.len() as u32).collect();
-        let mut judge = Self { chosen: vec![Chosen::default(); spans.len()], spans, order, error };
-        for (address, row) in (0..).zip(design.rows()) {
-            let (first, last) = judge.spans[address as usize];
+        let mut judge = Self {
+            least: least.to_vec(),
+            chosen: vec![Chosen::default(); least.len()],
+            order: (0..least.len() as u32).collect(),
+            error,
+        };
+        for address in 0..least.len() as u32 {
+            let (first, last) = judge.span(design, address);
             let spread = (0..=SPREAD).map(|i| {
                 first + (i128::from(last - first) * i128::from(i) / i128::from(SPREAD)) as i64
             });
-            let edges = [row.cut - 1, row.cut, row.hand_over - 1, row.hand_over];
             let near = last - NEAREST..=last;
-            let mut xs: Vec<i64> = spread.chain(edges).chain(near).collect();
+            let mut xs: Vec<i64> = spread.chain(near).collect();
             xs.retain(|x| (first..=last).contains(x));
             xs.sort_unstable();
             xs.dedup();
@@ -81,6 +74,26 @@ impl Judge {
             }
         }
         judge
+    }
+
+    /// The first and the last x of a row that can have the greatest error.
+    fn span(&self, design: &Design, address: u32) -> (i64, i64) {
+        let greatest = design.datapath().front_end().greatest;
+        let (least, row) = (self.least[address as usize], &design.rows()[address as usize]);
+        let all = design.config().tail == Tail::Rational;
+        (if all { least } else { least.max(row.cut - 1) }.min(greatest), greatest)
+    }
+
+    /// True where x beside the ends of the row's segments break the error.
+    fn fails_beside_ends(&self, design: &Design, address: u32) -> bool {
+        let row = &design.rows()[address as usize];
+        let (first, last) = self.span(design, address);
+        let ends = [row.cut - 1, row.cut, row.hand_over - 1, row.hand_over];
+        ends.into_iter().filter(|x| (first..=last).contains(x)).any(|x| {
+            let shown = design.datapath().evaluate(address, x).intensity as f64
+                * design.config().output.ulp();
+            (shown - phong(row.exponent, x as f64 * design.config().input.ulp())).abs() > self.error
+        })
     }
 
     /// Asks this x first from now on.
@@ -100,6 +113,7 @@ impl Judge {
             design.datapath().evaluate_block(address, xs, &mut block);
             let mut both = block.intensities.iter().zip(powers);
             both.any(|(&bits, power)| (bits as f64 * ulp - power).abs() > self.error)
+                || self.fails_beside_ends(design, address)
         });
         if let Some(at) = failed {
             self.order[..=at].rotate_right(1);
@@ -109,9 +123,9 @@ impl Judge {
 
     /// The greatest error of every piece of every row, over every x.
     pub fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
-        let pieces: Vec<(u32, i64, i64)> = (0..)
-            .zip(&self.spans)
-            .flat_map(|(address, &(first, last))| {
+        let pieces: Vec<(u32, i64, i64)> = (0..self.least.len() as u32)
+            .flat_map(|address| {
+                let (first, last) = self.span(design, address);
                 // Rows of few x have as many pieces as matter, too.
                 let length = ((last - first) / LEAST_PIECES + 1).min(PIECE);
                 let starts = (first..=last).step_by(length as usize);

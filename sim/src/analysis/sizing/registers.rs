@@ -14,6 +14,7 @@ pub const NAMES: [&str; 12] =
 
 /// The first of those that are compared with x: between 0 and 1.
 const CUT: usize = 10;
+const HAND_OVER: usize = 11;
 
 /// A value for each register that the configuration has.
 pub type Each<T> = [Option<T>; NAMES.len()];
@@ -82,7 +83,7 @@ pub fn taken(design: &Design) -> Each<Reach> {
             taken[CUT] = field(design, FieldName::Cut, greatest);
         }
         let hand_over = datapath.formats().hand_over;
-        taken[11] = hand_over.and_then(|_| field(design, FieldName::HandOver, greatest));
+        taken[HAND_OVER] = hand_over.and_then(|_| field(design, FieldName::HandOver, greatest));
     }
     if let Some(reach) = datapath.tail_reach() {
         taken[7] = field(design, FieldName::TailA, 0);
@@ -151,7 +152,7 @@ pub fn value(index: usize, passage: &[Signals]) -> Option<i64> {
         7 => row(FieldName::TailA),
         8 => row(FieldName::TailB),
         9 => stage1.division.divisor,
-        10 => row(FieldName::Cut),
+        CUT => row(FieldName::Cut),
         _ => row(FieldName::HandOver),
     })
 }

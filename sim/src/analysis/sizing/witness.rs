@@ -37,8 +37,10 @@ pub enum Breaks {
     },
     /// Nothing fails, but a field that is the same in every row is no longer so, and the ROM takes this many bits.
     MoreRom(u64),
-    /// There is no bit at this end, or the divider's dividend would be no integer.
+    /// There is no bit at this end.
     NoSuchBit,
+    /// There is no such hardware: the divider's dividend would be no integer, or a register too wide.
+    NoHardware,
     /// This place was asked for: it is the output's last.
     OutputHasIt,
     /// No value takes the bit; that none does in the ranges that were proved is another matter.
@@ -98,7 +100,9 @@ impl Court<'_> {
         let Some(less) = with_fraction(format, -1) else { return Ok(silent) };
         let mut formats = self.state.formats;
         formats[index] = Some(less);
-        let Ok(design) = loose(self.base, &formats) else { return Ok(silent) };
+        let Ok(design) = loose(self.base, &formats) else {
+            return Ok(Witness { breaks: Breaks::NoHardware, ..silent });
+        };
         let worst = greatest(&self.judge.measured(&design, self.progress));
         if let Some(worst) = worst.filter(|worst| worst.error > self.judge.error) {
             let breaks = Breaks::Error(worst.error);
