@@ -12,7 +12,9 @@ use hw_model::format::QFormat;
 use super::super::error_report::Progress;
 use super::super::refine::NO_BUDGET;
 use super::judge::{Judge, Place, greatest};
-use super::registers::{Each, Hardware, NAMES, loosened, stated, taken, tight, with_fraction};
+use super::registers::{
+    Each, Hardware, NAMES, ROOMS, loosened, stated, taken, tight, with_fraction,
+};
 
 /// A state of the search: formats with no integer bit to spare.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,8 +28,12 @@ pub struct State {
 /// # Errors
 /// When there is no such design.
 pub fn loose(base: &Design, formats: &Each<QFormat>) -> Result<Design, DesignError> {
-    let widths = stated(&loosened(formats));
-    base.revised(Revision { widths, error_budget_ulp: NO_BUDGET, ..base.revision() })
+    let revised = |room| {
+        let widths = stated(&loosened(formats, room));
+        base.revised(Revision { widths, error_budget_ulp: NO_BUDGET, ..base.revision() })
+    };
+    let [first, last] = ROOMS;
+    revised(first).or_else(|_| revised(last))
 }
 
 /// The narrowest state that was found, and the greatest error of it; none where not even the proved widths

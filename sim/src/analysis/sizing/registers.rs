@@ -19,8 +19,9 @@ const HAND_OVER: usize = 11;
 /// A value for each register that the configuration has.
 pub type Each<T> = [Option<T>; NAMES.len()];
 
-/// Integer bits that hold whatever a search tries: a few more than any rounding adds.
-const ROOM: i32 = 4;
+/// Integer bits that a search adds first, more than any rounding does; and those for an end that moved so far that the
+/// shift changed, by which c3 moves three places. Wide registers are slow, and so they are tried last.
+pub const ROOMS: [i32; 2] = [4, 20];
 
 pub fn of_stated(widths: &StatedWidths) -> Each<QFormat> {
     let StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor } =
@@ -40,13 +41,13 @@ pub const fn stated(formats: &Each<QFormat>) -> StatedWidths {
     StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor }
 }
 
-/// The same fraction bits with room for anything; an end is at most 1.
-pub fn loosened(formats: &Each<QFormat>) -> Each<QFormat> {
+/// The same fraction bits with so much room; an end is at most 1.
+pub fn loosened(formats: &Each<QFormat>, room: i32) -> Each<QFormat> {
     std::array::from_fn(|index| {
         let format = formats[index]?;
         let (integer, fraction) = (format.integer_bits(), format.fraction_bits());
         let loose = match index < CUT {
-            true => QFormat::signed(integer + ROOM, fraction),
+            true => QFormat::signed(integer + room, fraction),
             false => QFormat::unsigned(1, fraction),
         };
         loose.ok().or(Some(format))
