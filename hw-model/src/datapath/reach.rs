@@ -105,7 +105,9 @@ impl Datapath {
             }
         };
         for address in 0..self.rom.depth() as u32 {
-            look(&mut best, address, None);
+            if self.can_be_idle(address) {
+                look(&mut best, address, None);
+            }
             for (first, last) in self.polynomial_spans(&self.row(address)) {
                 look(&mut best, address, Some(first));
                 look(&mut best, address, Some(last));
@@ -122,6 +124,13 @@ impl Datapath {
             }
         }
         best.map(|(_, extreme)| extreme)
+    }
+
+    /// True where a row's polynomial has an x for which it does not answer, or, like the first row, is read for addresses
+    /// without a word.
+    fn can_be_idle(&self, address: u32) -> bool {
+        let cut = self.front_end.cut(&self.row(address));
+        address == 0 || cut > 0 || self.formats.input.is_signed()
     }
 
     /// The first and the last x at which each segment of a row answers; only of those that do.

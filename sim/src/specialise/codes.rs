@@ -64,7 +64,7 @@ fn with_output(
     let mut config = kept(source, rows, name)?;
     let Ok(output) = QFormat::unsigned(config.output.integer_bits(), bits) else { return Ok(None) };
     config.output = output;
-    // Where segments end has nothing to do with the output.
+    // Where segments may end has nothing to do with the output.
     let StatedWidths { cut, hand_over, .. } = source.config().widths;
     config.widths = StatedWidths { cut, hand_over, ..StatedWidths::default() };
     config.coefficient_steps = Vec::new();

@@ -61,10 +61,10 @@ pub fn witnesses(design: &Design) -> Result<Vec<Witness>, SizingError> {
             found.extend([last, first]);
             continue;
         };
-        let n = design.rows()[extreme.address as usize].exponent;
-        let x = seen_at(design, &extreme, held).ok_or(SizingError::Silent { register, n })?;
+        let (n, x) =
+            seen_at(design, register, &extreme, |passage| held(passage) == Some(extreme.bits))?;
         let breaks = Breaks::Overflow { register, bits: extreme.bits, format: less };
-        found.extend([last, Witness { n: Some(n), x, breaks, ..first }]);
+        found.extend([last, Witness { n, x, breaks, ..first }]);
     }
     Ok(found)
 }

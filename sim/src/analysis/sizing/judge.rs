@@ -60,7 +60,7 @@ impl Judge {
             error,
         };
         for address in 0..least.len() as u32 {
-            let (first, last) = judge.span(design, address);
+            let Some((first, last)) = judge.span(design, address) else { continue };
             let spread = (0..=SPREAD).map(|i| {
                 first + (i128::from(last - first) * i128::from(i) / i128::from(SPREAD)) as i64
             });
@@ -76,18 +76,19 @@ impl Judge {
         judge
     }
 
-    /// The first and the last x of a row that can have the greatest error.
-    fn span(&self, design: &Design, address: u32) -> (i64, i64) {
+    /// The first and the last x of a row that can have the greatest error; none where no x of the row was asked for.
+    fn span(&self, design: &Design, address: u32) -> Option<(i64, i64)> {
         let greatest = design.datapath().front_end().greatest;
         let (least, row) = (self.least[address as usize], &design.rows()[address as usize]);
         let all = design.config().tail == Tail::Rational;
-        (if all { least } else { least.max(row.cut - 1) }.min(greatest), greatest)
+        let first = if all { least } else { least.max((row.cut - 1).min(greatest)) };
+        (first <= greatest).then_some((first, greatest))
     }
 
     /// True where x beside the ends of the row's segments break the error.
     fn fails_beside_ends(&self, design: &Design, address: u32) -> bool {
         let row = &design.rows()[address as usize];
-        let (first, last) = self.span(design, address);
+        let Some((first, last)) = self.span(design, address) else { return false };
         let ends = [row.cut - 1, row.cut, row.hand_over - 1, row.hand_over];
         ends.into_iter().filter(|x| (first..=last).contains(x)).any(|x| {
             let shown = design.datapath().evaluate(address, x).intensity as f64
@@ -124,8 +125,8 @@ impl Judge {
     /// The greatest error of every piece of every row, over every x.
     pub fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
         let pieces: Vec<(u32, i64, i64)> = (0..self.least.len() as u32)
-            .flat_map(|address| {
-                let (first, last) = self.span(design, address);
+            .filter_map(|address| Some((address, self.span(design, address)?)))
+            .flat_map(|(address, (first, last))| {
                 // Rows of few x have as many pieces as matter, too.
                 let length = ((last - first) / LEAST_PIECES + 1).min(PIECE);
                 let starts = (first..=last).step_by(length as usize);

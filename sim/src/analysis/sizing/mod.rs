@@ -140,6 +140,15 @@ pub enum SizingError {
         /// What kept it from being built.
         why: String,
     },
+    /// Nothing was asked.
+    #[error(
+        "no exponent has an x in the range: where x^n is that much, x is beyond {input}; ask for a larger range, or an \
+         input with more bits"
+    )]
+    Empty {
+        /// The format of x.
+        input: QFormat,
+    },
     /// A register could lose a bit.
     #[error("register {register} could have a bit less; please report the command")]
     Spare {
@@ -174,6 +183,10 @@ pub fn samples(request: &Request) -> u64 {
 /// When nothing keeps the error.
 pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingError> {
     let least = candidates::least_xs(request)?;
+    let input = request.input;
+    if least.iter().all(|&least| least > input.max_bits().min(input.one())) {
+        return Err(SizingError::Empty { input });
+    }
     let considered = candidates::candidates(request);
     let reals = considered
         .par_iter()

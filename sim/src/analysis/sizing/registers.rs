@@ -138,8 +138,20 @@ pub fn tight(formats: &Each<QFormat>, taken: &Each<Reach>) -> Each<QFormat> {
     })
 }
 
+/// True where a register holds this on the way of one x, by its place in [`NAMES`]. A coefficient of a segment that
+/// never answers is held by the fetched word alone.
+pub fn holds(index: usize, passage: &[Signals], bits: i64) -> bool {
+    let fetched = || {
+        let power = FieldName::COEFFICIENTS.len().checked_sub(index).filter(|_| index > 0);
+        let (Some(power), Some(fetch)) = (power, passage.first()) else { return false };
+        let names = [FieldName::COEFFICIENTS[power], FieldName::OUTER_COEFFICIENTS[power]];
+        names.into_iter().any(|name| fetch.row.get(name) == bits)
+    };
+    value(index, passage) == Some(bits) || fetched()
+}
+
 /// What a register holds on the way of one x, by its place in [`NAMES`].
-pub fn value(index: usize, passage: &[Signals]) -> Option<i64> {
+fn value(index: usize, passage: &[Signals]) -> Option<i64> {
     let (front_end, stage1, stage2) = (passage.get(1)?, passage.get(2)?, passage.get(3)?);
     let row = |name| front_end.row.get(name);
     Some(match index {

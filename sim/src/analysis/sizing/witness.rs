@@ -10,7 +10,7 @@ use super::super::error_report::Progress;
 use super::SizingError;
 use super::judge::{Judge, greatest};
 use super::narrow::{State, loose};
-use super::registers::{Each, Hardware, NAMES, taken, value, with_fraction, with_integer_less};
+use super::registers::{Each, Hardware, NAMES, holds, taken, with_fraction, with_integer_less};
 
 /// At which end the bit is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,12 +145,11 @@ impl Court<'_> {
         extreme: Extreme,
     ) -> Result<Witness, SizingError> {
         let Some(format) = format else { return Ok(silent) };
-        let n = design.rows()[extreme.address as usize].exponent;
         let register = NAMES[which];
-        let x = seen_at(design, &extreme, |passage| value(which, passage));
-        let Some(x) = x else { return Err(SizingError::Silent { register, n }) };
+        let (n, x) =
+            seen_at(design, register, &extreme, |passage| holds(which, passage, extreme.bits))?;
         let breaks = Breaks::Overflow { register, bits: extreme.bits, format };
-        Ok(Witness { n: Some(n), x, breaks, ..silent })
+        Ok(Witness { n, x, breaks, ..silent })
     }
 
     /// An error once more, rank by rank.
@@ -181,18 +180,29 @@ pub(super) fn a_bit_less(format: QFormat, taken: &Reach) -> Option<(QFormat, Ext
     Some((less.unwrap_or(format), extreme))
 }
 
-/// The x at which a register is seen to hold the value.
+/// The n and x at which a register is seen to hold the value; no n where that is an address without a word, which reads
+/// the first row and is no x of it.
+///
+/// # Errors
+/// When it is not seen.
 pub(super) fn seen_at(
     design: &Design,
+    register: &'static str,
     extreme: &Extreme,
-    held: impl Fn(&[Signals]) -> Option<i64>,
-) -> Option<i64> {
-    let cut = design.rows()[extreme.address as usize].cut;
-    let greatest = design.datapath().front_end().greatest;
+    holds: impl Fn(&[Signals]) -> bool,
+) -> Result<(Option<f64>, i64), SizingError> {
+    let (datapath, row) = (design.datapath(), &design.rows()[extreme.address as usize]);
+    let greatest = datapath.front_end().greatest;
     // A value that a part shows while it does not answer is had at some x all the same.
-    let places = extreme.x.map_or(vec![greatest, 0, (cut - 1).max(0)], |x| vec![x]);
-    let passage = |x| design.datapath().passage(extreme.address, x);
-    places.into_iter().find(|&x| held(&passage(x)) == Some(extreme.bits))
+    let idle = || vec![greatest, 0, (row.cut - 1).max(0), datapath.formats().input.min_bits()];
+    let xs = extreme.x.map_or_else(idle, |x| vec![x]);
+    let seen = xs.into_iter().find(|&x| holds(&datapath.passage(extreme.address, x)));
+    let beyond = datapath.rom().depth() as u32;
+    match seen {
+        Some(x) => Ok((Some(row.exponent), x)),
+        None if extreme.address == 0 && holds(&datapath.passage(beyond, 0)) => Ok((None, 0)),
+        None => Err(SizingError::Silent { register, n: row.exponent }),
+    }
 }
 
 /// The first register that takes more than its format holds.
