@@ -39,6 +39,7 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 	fi
 
 docs: ## write the hardware reference, docs/hardware/, and docs/CLAIMS.md again
+	@mkdir -p target
 	@$(BLYSK) document --all-presets --out docs/hardware
 	@$(BLYSK) claims --format markdown > target/claims.md
 	@mv target/claims.md docs/CLAIMS.md
@@ -88,6 +89,7 @@ bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes d
 	$(CARGO) bench --package sim --bench throughput --locked
 
 pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
+	@mkdir -p target
 	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
 	@mkdir -p docs/pareto
 	@cp $(RESULTS)/pareto/pareto.csv docs/pareto.csv
