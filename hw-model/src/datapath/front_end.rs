@@ -22,7 +22,8 @@
 //! Cut and hand-over may have fewer fraction bits than x; zeros below their last place bring them to the unit of x.
 //!
 //! Widths: s = 1 − x needs no more bits than x. u = s·2^e is at most (1 − cut)·2^e, a little above 1 (with
-//! fitted shifts below 1 in both segments; more where a coarse cut was rounded far down); it is rounded once to u's fraction bits (nothing is dropped where u has as many as x).
+//! fitted shifts below 1 in both segments; more where a coarse cut was rounded far down); it is rounded once to u's
+//! fraction bits (nothing is dropped where u has as many as x).
 
 use crate::rom::{FieldName, Row};
 use crate::rounding::{Lane, Rounding, round_shift};
