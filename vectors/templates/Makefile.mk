@@ -4,7 +4,7 @@
 #   make icarus | verilator     run every vector; the last line is PASS or FAIL
 #   make control                a corrupted vector must FAIL, at that vector
 #   make lint                   both tools, all warnings
-#   make waves                  run in Icarus and dump waves.vcd
+#   make waves                  run in Icarus and dump waves.vcd; gtkwave waves.gtkw shows it
 #   make clean
 #
 # Options of the testbench go into ARGUMENTS: make icarus ARGUMENTS="+seed=7 +log=dut.csv".

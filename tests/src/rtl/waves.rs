@@ -8,7 +8,7 @@ use std::path::Path;
 
 use hw_model::datapath::Datapath;
 use sim::pipeline::{Inputs, Pipeline};
-use sim::run::Cycle;
+use sim::run::{Cycle, settle};
 use sim::waves::{WaveFormat, WaveWriter};
 use vectors::rtl::probes::probes;
 
@@ -66,7 +66,7 @@ fn write(
             writer.cycle(&Cycle { index, inputs, outputs: &outputs, ranks })?;
             pipeline.clock();
         }
-        writer.finish(inputs.len() as u64)
+        settle(&mut pipeline, inputs.len() as u64, |settled| writer.finish(settled))
     };
     written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
 }
@@ -120,11 +120,11 @@ impl Dump {
             ["in_ready_o", "out_valid_o", "intensity_o", "status_o"]
                 .map(|port| (port.to_owned(), port.to_owned()))
                 .to_vec();
-        // Waves have a scope for each rank, whatever part of the pipeline a register belongs to.
-        names.extend(probes(datapath).into_iter().map(|probe| {
-            let scope = datapath.rank_name(probe.rank);
-            (format!("{scope}.{}_q", probe.register.name), probe.path)
-        }));
+        // Waves have a scope for each rank, whatever part of the pipeline a register belongs to, and the RTL's names.
+        for probe in probes(datapath) {
+            names.push((probe.path.clone(), probe.path.clone()));
+            names.push((probe.wave, probe.path));
+        }
         let mut compared = 0;
         for (name, path) in names {
             let before = compared;

@@ -4,6 +4,7 @@ mod package;
 pub mod probes;
 mod project;
 pub mod register_log;
+mod save_file;
 mod testbench;
 
 use std::io::Write;
@@ -19,6 +20,7 @@ use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
 pub use package::{package, rounding_number};
 pub use project::core_name;
+pub use save_file::{Names, save_file};
 pub use testbench::testbench;
 
 use probes::StageWord;
@@ -27,6 +29,11 @@ use probes::StageWord;
 pub const PACKAGE: &str = "blysk_pkg.sv";
 /// The name of the testbench.
 pub const TESTBENCH: &str = "blysk_tb.sv";
+/// What `make waves` writes; the scope of the pipeline in it.
+const WAVES: &str = "waves.vcd";
+const SCOPE: &str = "blysk_tb.dut";
+/// What GTKWave shows of it.
+pub const SAVE_FILE: &str = "waves.gtkw";
 /// Every computed register of every vector, for the testbench.
 pub const STAGES: &str = "stages.mem";
 /// The exponent of each ROM word, as the bits of an IEEE double, for messages of the testbench.
@@ -56,7 +63,7 @@ impl Sources<'_> {
 }
 
 /// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
-/// Makefile and FuseSoC core file.
+/// Makefile, FuseSoC core file, and what GTKWave shows.
 ///
 /// # Errors
 /// When a file cannot be written.
@@ -81,6 +88,8 @@ pub fn stage(
     set.write(TESTBENCH, testbench(&sources))?;
     set.write("Makefile", project::makefile(&sources))?;
     set.write("blysk.core", project::core_file(&sources))?;
+    let names = if sources.is_own() { Names::Rtl } else { Names::Ports };
+    set.write(SAVE_FILE, save_file(design.datapath(), names, SCOPE, Some(WAVES)))?;
     stage_words(bundle, command, set)?;
     set.write(EXPONENTS, exponents(design, command))?;
     bundle.stage(set)
