@@ -8,6 +8,7 @@
 // `digits`, from whose top they leave as quotient bits come in at the bottom.
 //
 // load_i has one bit for each rank of the division: the divisor's, and one for each digit stage.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_tail (
@@ -55,7 +56,8 @@ module blysk_tail (
   assign digits[DIGIT_BITS-1:0]      = digits_q;
 
   // ---- The quotient bits --------------------------------------------------------------------------
-  for (genvar step = 0; step < STEPS; step++) begin : digit_stage
+  genvar step;
+  for (step = 0; step < STEPS; step = step + 1) begin : digit_stage
     localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
     localparam int LEFT  = DIGIT_BITS - step * MOST;
     localparam int COUNT = LEFT < MOST ? LEFT : MOST;
