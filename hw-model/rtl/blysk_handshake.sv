@@ -30,9 +30,11 @@ module blysk_handshake #(
   logic [RANKS-1:0] offered, advance;
 
   genvar rank;
-  for (rank = 0; rank < RANKS; rank = rank + 1) begin : ranks
-    assign advance[rank] = out_ready_i || !(&valid_q[RANKS-1:rank]);
-  end
+  generate
+    for (rank = 0; rank < RANKS; rank = rank + 1) begin : ranks
+      assign advance[rank] = out_ready_i || !(&valid_q[RANKS-1:rank]);
+    end
+  endgenerate
 
   assign offered = {valid_q[RANKS-2:0], in_valid_i && !rst_i};
   assign load_o  = advance & offered;

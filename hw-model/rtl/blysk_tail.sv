@@ -57,22 +57,24 @@ module blysk_tail (
 
   // ---- The quotient bits --------------------------------------------------------------------------
   genvar step;
-  for (step = 0; step < STEPS; step = step + 1) begin : digit_stage
-    localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
-    localparam int LEFT  = DIGIT_BITS - step * MOST;
-    localparam int COUNT = LEFT < MOST ? LEFT : MOST;
-    blysk_tail_digits #(
-      .COUNT(COUNT), .LAST(step == STEPS - 1 ? 1 : 0)
-    ) quotient_bits (
-      .clk_i, .load_i(load_i[step+1]),
-      .divisor_i(divisor[step*DIVISOR_BITS+:DIVISOR_BITS]),
-      .remainder_i(remainder[step*DIVISOR_BITS+:DIVISOR_BITS]),
-      .digits_i(digits[step*DIGIT_BITS+:DIGIT_BITS]),
-      .divisor_o(divisor[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-      .remainder_o(remainder[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-      .digits_o(digits[(step+1)*DIGIT_BITS+:DIGIT_BITS])
-    );
-  end
+  generate
+    for (step = 0; step < STEPS; step = step + 1) begin : digit_stage
+      localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
+      localparam int LEFT  = DIGIT_BITS - step * MOST;
+      localparam int COUNT = LEFT < MOST ? LEFT : MOST;
+      blysk_tail_digits #(
+        .COUNT(COUNT), .LAST(step == STEPS - 1 ? 1 : 0)
+      ) quotient_bits (
+        .clk_i, .load_i(load_i[step+1]),
+        .divisor_i(divisor[step*DIVISOR_BITS+:DIVISOR_BITS]),
+        .remainder_i(remainder[step*DIVISOR_BITS+:DIVISOR_BITS]),
+        .digits_i(digits[step*DIGIT_BITS+:DIGIT_BITS]),
+        .divisor_o(divisor[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
+        .remainder_o(remainder[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
+        .digits_o(digits[(step+1)*DIGIT_BITS+:DIGIT_BITS])
+      );
+    end
+  endgenerate
 
   assign remainder_o = remainder[STEPS*DIVISOR_BITS+:DIVISOR_BITS];
   assign digits_o    = digits[STEPS*DIGIT_BITS+:DIGIT_BITS];

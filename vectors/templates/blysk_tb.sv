@@ -124,7 +124,7 @@ module blysk_tb;
     if (!$value$plusargs("expected=%s", expected_file)) expected_file = "expected.mem";
     if (!$value$plusargs("registers=%d", trace_cycles)) trace_cycles = 0;
     plain = $test$plusargs("plain") != 0;
-    random = 32'(seed) * 32'h9e3779b9 + 32'h7f4a7c15;
+    random = seed * 32'h9e3779b9 + 32'h7f4a7c15;
     if (random == 0) random = 1;
     for (i = 0; i < VECTORS; i = i + 1) begin
       stimulus[i] = '1;
@@ -163,7 +163,7 @@ module blysk_tb;
     end
     if ($value$plusargs("waves=%s", waves_file)) begin
       $dumpfile(waves_file);
-      $dumpvars(0, blysk_tb);
+      $dumpvars;
     end
     log = 0;
     if ($value$plusargs("log=%s", log_file)) begin

@@ -11,6 +11,7 @@ use std::io::Write;
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
+pub use hw_model::rtl::{PACKAGE, TESTBENCH};
 use hw_model::rtl::{SOURCES, TOP};
 
 use crate::bundle::{Bundle, BundleError};
@@ -23,10 +24,6 @@ pub use testbench::testbench;
 
 use probes::StageWord;
 
-/// The name of the package.
-pub const PACKAGE: &str = "blysk_pkg.sv";
-/// The name of the testbench.
-pub const TESTBENCH: &str = "blysk_tb.sv";
 /// Every computed register of every vector, for the testbench.
 pub const STAGES: &str = "stages.mem";
 /// The exponent of each ROM word, as the bits of an IEEE double, for messages of the testbench.
