@@ -4,6 +4,7 @@
 // the same in every row take no place in the word; they are constants here. An address without a word
 // reads the first one, so that nothing stands between the memory and its register; no_word_o says
 // that the address had none.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_rom #(

@@ -5,6 +5,7 @@ pub mod faults;
 pub mod fusesoc;
 pub mod mutants;
 pub mod netlist_parts;
+pub mod readers;
 pub mod simulators;
 pub mod specialised;
 pub mod waves;

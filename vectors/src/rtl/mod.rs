@@ -12,6 +12,7 @@ use std::io::Write;
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
+pub use hw_model::rtl::{PACKAGE, TESTBENCH};
 use hw_model::rtl::{SOURCES, TOP};
 
 use crate::bundle::{Bundle, BundleError};
@@ -25,10 +26,6 @@ pub use testbench::testbench;
 
 use probes::StageWord;
 
-/// The name of the package.
-pub const PACKAGE: &str = "blysk_pkg.sv";
-/// The name of the testbench.
-pub const TESTBENCH: &str = "blysk_tb.sv";
 /// What `make waves` writes; the scope of the pipeline in it.
 const WAVES: &str = "waves.vcd";
 const SCOPE: &str = "blysk_tb.dut";
