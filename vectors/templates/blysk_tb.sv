@@ -86,7 +86,11 @@ module blysk_tb;
 
   initial begin
     clk = 1'b0;
-    forever #5 clk = !clk;
+    // The end comes between two rising edges: waves have what the last one brought.
+    forever begin
+      #5 clk = !clk;
+      if (ended && !clk) $finish(0);
+    end
   end
 
   [[ dut ]] dut (
@@ -96,9 +100,8 @@ module blysk_tb;
   );
 
   // ---- Begin, end, and the files --------------------------------------------------------------------
-  // A simulator goes on to the end of the time step, and must not say more.
+  // The rest of the cycle must say nothing more.
   task automatic stop;
-    $finish(0);
     ended = 1'b1;
   endtask
 

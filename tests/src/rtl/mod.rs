@@ -6,6 +6,8 @@ pub mod fusesoc;
 pub mod mutants;
 pub mod netlist_parts;
 pub mod readers;
+pub mod replay;
+pub mod rom_image;
 pub mod simulators;
 pub mod specialised;
 pub mod waves;

@@ -16,6 +16,7 @@ mod render;
 mod report;
 mod report_against_brute_force;
 mod rom;
+mod rom_image;
 mod rtl;
 mod specialise;
 mod stability;
