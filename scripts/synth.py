@@ -93,9 +93,11 @@ def emit(blysk, name, option):
 
 
 def inputs(place, sources, device):
-    """A hash of all that a row follows from, comments left out."""
+    """A hash of all that a row follows from; comments, and what only simulators read, are left out."""
     texts = [(place / name).read_text() for name in [*sources, "rom.mem"]] + [WRAPPER.read_text()]
-    code = [re.sub(r"\s+", " ", re.sub(r"//.*", "", text)) for text in texts]
+    simulated = r"^`ifndef SYNTHESIS\n`ifndef FORMAL\n.*?^`endif\n`endif\n"
+    read = [re.sub(simulated, "", text, flags=re.M | re.S) for text in texts]
+    code = [re.sub(r"\s+", " ", re.sub(r"//.*", "", text)) for text in read]
     flow = json.dumps([DEVICES[device], COMMON, SEEDS], sort_keys=True)
     return hashlib.sha256("\n".join([*code, flow]).encode()).hexdigest()[:16]
 

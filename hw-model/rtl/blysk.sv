@@ -15,6 +15,7 @@
 //
 // RANKS is the latency in clock cycles; one result a cycle when nothing stalls. A configuration keeps
 // the polynomial, the tail, or both; what it does not keep is not built.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk #(

@@ -7,6 +7,7 @@
 //
 // The quotient has one fraction bit more than the output; the last remainder, zero or not, stands for
 // all further bits (sticky), so that every rounding mode is exact: round((2*quotient + sticky) / 4).
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_clamp (

@@ -1,6 +1,7 @@
 // Carries a value along: one register for each rank it passes, loaded with that rank.
 //
 // A value that is a constant of the hardware (STORED = 0) needs no register and passes through.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_delay #(
@@ -18,7 +19,8 @@ module blysk_delay #(
     // The value before each rank, and after the last, side by side.
     logic [(RANKS+1)*WIDTH-1:0] chain;
     assign chain[WIDTH-1:0] = value_i;
-    for (genvar rank = 0; rank < RANKS; rank++) begin : register
+    genvar rank;
+    for (rank = 0; rank < RANKS; rank = rank + 1) begin : register
       logic [WIDTH-1:0] value_q;
       always_ff @(posedge clk_i) begin
         if (load_i[rank]) value_q <= chain[rank*WIDTH+:WIDTH];

@@ -22,6 +22,7 @@
 // Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x (or hand_over - x) needs INPUT_FRACTION + 1. u = s * 2^e is
 // less than 2^V_WIDTH in its own unit for every row's cut, so U_WIDTH = V_WIDTH + U_DROP and a carry
 // bit and a sign hold it before its rounding.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_front_end (

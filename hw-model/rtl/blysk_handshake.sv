@@ -11,6 +11,7 @@
 //
 // in_ready_o depends on out_ready_i through one gate: rule 2, written out, says that a rank advances
 // when the output is taken or any rank from it on is empty.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_handshake #(
@@ -28,9 +29,12 @@ module blysk_handshake #(
   logic [RANKS-1:0] valid_d, valid_q;
   logic [RANKS-1:0] offered, advance;
 
-  for (genvar rank = 0; rank < RANKS; rank++) begin : ranks
-    assign advance[rank] = out_ready_i || !(&valid_q[RANKS-1:rank]);
-  end
+  genvar rank;
+  generate
+    for (rank = 0; rank < RANKS; rank = rank + 1) begin : ranks
+      assign advance[rank] = out_ready_i || !(&valid_q[RANKS-1:rank]);
+    end
+  endgenerate
 
   assign offered = {valid_q[RANKS-2:0], in_valid_i && !rst_i};
   assign load_o  = advance & offered;

@@ -4,6 +4,7 @@
 // the same in every row take no place in the word; they are constants here. An address without a word
 // reads the first one, so that nothing stands between the memory and its register; no_word_o says
 // that the address had none.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_rom #(
@@ -121,6 +122,65 @@ module blysk_rom #(
   end else begin : shift_outer_constant
     assign shift_outer_o = blysk_pkg::SHIFT_OUTER_CONSTANT;
   end
+
+`ifndef SYNTHESIS
+`ifndef FORMAL
+  // ---- The image, in simulators ---------------------------------------------------------------------
+  // Where an image gives no word, $readmemh leaves x or 0, and the intensity becomes a valid 0: `if` and `case`
+  // take x for false. So a simulation ends at once unless the image is ROM_DEPTH words of ROM_WIDTH bits in
+  // hex, between spaces, ends of lines and // comments.
+  localparam int WORD_DIGITS = (blysk_pkg::ROM_WIDTH + 3) / 4;
+  // The first digit of a word that has all its digits is less.
+  localparam int FIRST_BELOW = 1 << (blysk_pkg::ROM_WIDTH - 4 * (WORD_DIGITS - 1));
+
+  initial begin : image
+    // A letter is its number in ASCII.
+    integer file, letter, slashes, digit, digits, first, line, found, wrong;
+    file = $fopen(ROM_FILE, "r");
+    line = 1;
+    slashes = 0;
+    digits = 0;
+    first = 0;
+    found = 0;
+    wrong = 0;
+    letter = file == 0 ? -1 : $fgetc(file);
+    while (letter >= 0 && wrong == 0) begin
+      digit = -1;
+      if (letter >= 48 && letter <= 57) digit = letter - 48;
+      if (letter >= 65 && letter <= 70) digit = letter - 65 + 10;
+      if (letter >= 97 && letter <= 102) digit = letter - 97 + 10;
+      if (slashes == 2 && letter != 10) begin
+        // The rest of the line is a comment.
+      end else if (letter == 47) begin
+        slashes = slashes + 1;
+        digits = 0;
+      end else if (slashes == 1 || (digit < 0 && letter != 32 && (letter < 9 || letter > 13))) begin
+        wrong = line;
+      end else if (digit < 0) begin
+        slashes = 0;
+        digits = 0;
+        if (letter == 10) line = line + 1;
+      end else begin
+        if (digits == 0) begin
+          first = digit;
+          found = found + 1;
+        end
+        digits = digits + 1;
+        if (digits > WORD_DIGITS || (digits == WORD_DIGITS && first >= FIRST_BELOW)) wrong = line;
+      end
+      letter = $fgetc(file);
+    end
+    if (file == 0)
+      $fatal(1, "%0s: the ROM image is not there", ROM_FILE);
+    else if (wrong != 0)
+      $fatal(1, "%0s, line %0d: no words of %0d bits in hex", ROM_FILE, wrong, blysk_pkg::ROM_WIDTH);
+    else if (found != blysk_pkg::ROM_DEPTH)
+      $fatal(1, "%0s: the ROM image has %0d words and must have %0d", ROM_FILE, found, blysk_pkg::ROM_DEPTH);
+    else
+      $fclose(file);
+  end
+`endif
+`endif
 
 endmodule
 

@@ -9,6 +9,7 @@
 //
 // Widths: IN_WIDTH has room for the carry of what is added. OUT_WIDTH holds every result that can
 // occur (argued where the module is instantiated); the bits above it are copies of the sign.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_round_shift #(

@@ -13,6 +13,7 @@
 // (PRODUCT_UP, ADDEND_UP: no bit is lost), added, and only then rounded to t: DROP bits go, or
 // RESULT_UP zeros come. SUM_WIDTH has room for a sign, the carry of the sum and that of the rounding.
 // That T_WIDTH holds every result follows from the range analysis of the ROM (src/budget).
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_stage #(

@@ -8,6 +8,7 @@
 // `digits`, from whose top they leave as quotient bits come in at the bottom.
 //
 // load_i has one bit for each rank of the division: the divisor's, and one for each digit stage.
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_tail (
@@ -55,22 +56,25 @@ module blysk_tail (
   assign digits[DIGIT_BITS-1:0]      = digits_q;
 
   // ---- The quotient bits --------------------------------------------------------------------------
-  for (genvar step = 0; step < STEPS; step++) begin : digit_stage
-    localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
-    localparam int LEFT  = DIGIT_BITS - step * MOST;
-    localparam int COUNT = LEFT < MOST ? LEFT : MOST;
-    blysk_tail_digits #(
-      .COUNT(COUNT), .LAST(step == STEPS - 1 ? 1 : 0)
-    ) quotient_bits (
-      .clk_i, .load_i(load_i[step+1]),
-      .divisor_i(divisor[step*DIVISOR_BITS+:DIVISOR_BITS]),
-      .remainder_i(remainder[step*DIVISOR_BITS+:DIVISOR_BITS]),
-      .digits_i(digits[step*DIGIT_BITS+:DIGIT_BITS]),
-      .divisor_o(divisor[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-      .remainder_o(remainder[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-      .digits_o(digits[(step+1)*DIGIT_BITS+:DIGIT_BITS])
-    );
-  end
+  genvar step;
+  generate
+    for (step = 0; step < STEPS; step = step + 1) begin : digit_stage
+      localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
+      localparam int LEFT  = DIGIT_BITS - step * MOST;
+      localparam int COUNT = LEFT < MOST ? LEFT : MOST;
+      blysk_tail_digits #(
+        .COUNT(COUNT), .LAST(step == STEPS - 1 ? 1 : 0)
+      ) quotient_bits (
+        .clk_i, .load_i(load_i[step+1]),
+        .divisor_i(divisor[step*DIVISOR_BITS+:DIVISOR_BITS]),
+        .remainder_i(remainder[step*DIVISOR_BITS+:DIVISOR_BITS]),
+        .digits_i(digits[step*DIGIT_BITS+:DIGIT_BITS]),
+        .divisor_o(divisor[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
+        .remainder_o(remainder[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
+        .digits_o(digits[(step+1)*DIGIT_BITS+:DIGIT_BITS])
+      );
+    end
+  endgenerate
 
   assign remainder_o = remainder[STEPS*DIVISOR_BITS+:DIVISOR_BITS];
   assign digits_o    = digits[STEPS*DIGIT_BITS+:DIGIT_BITS];

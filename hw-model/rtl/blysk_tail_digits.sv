@@ -6,6 +6,7 @@
 //
 // Widths: every remainder is less than D, so doubling it takes one bit more than D has.
 // After the last quotient bit the divisor is not needed any more and gets no register (LAST = 1).
+`timescale 1ns / 1ps
 `default_nettype none
 
 module blysk_tail_digits #(

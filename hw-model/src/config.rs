@@ -12,6 +12,7 @@ use crate::domain::{self, Presented};
 use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
+use crate::names;
 use crate::rounding::Rounding;
 use crate::steps::{self, CoefficientSteps};
 
@@ -248,9 +249,8 @@ impl Config {
     /// Names the field and what would be right.
     pub fn check(&self) -> Result<(), ConfigError> {
         self.levels()?;
-        let named = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if self.name.is_empty() || !self.name.chars().all(named) {
-            return wrong("name", "use letters, digits, - and _; it becomes part of file names");
+        if let Err(error) = names::label(&self.name) {
+            return wrong("name", error.to_string());
         }
         self.check_method()?;
         self.check_segments()?;

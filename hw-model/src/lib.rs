@@ -13,6 +13,7 @@ pub mod exponents;
 pub mod fit;
 pub mod format;
 pub mod highlight;
+pub mod names;
 pub mod presets;
 pub mod quantise;
 pub mod rom;

@@ -25,6 +25,12 @@ macro_rules! source {
 /// The name of the top module.
 pub const TOP: &str = "blysk";
 
+/// The file of the package of a configuration, which is generated.
+pub const PACKAGE: &str = "blysk_pkg.sv";
+
+/// The file of the testbench, which is generated.
+pub const TESTBENCH: &str = "blysk_tb.sv";
+
 /// Every source file, in an order in which each names only what stands before it.
 pub const SOURCES: [Source; 10] = [
     source!("blysk_round_shift.sv"),

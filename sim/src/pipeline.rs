@@ -95,6 +95,12 @@ impl<'a> Ranks<'a> {
         self.rank(self.ranks - 1)
     }
 
+    /// The valid flags, that of the first rank in bit 0.
+    #[must_use]
+    pub const fn valid(&self) -> u128 {
+        self.places.valid
+    }
+
     /// The number of valid flags that are set.
     #[must_use]
     pub const fn in_flight(&self) -> u32 {

@@ -127,6 +127,19 @@ pub fn run<E>(
     }
 }
 
+/// What the last edge of a run brought: the registers behind it, with nothing presented and ready high. `cycles` went
+/// before; this one has no edge, and does not count.
+pub fn settle<R>(
+    pipeline: &mut Pipeline<'_>,
+    cycles: u64,
+    observe: impl FnOnce(&Cycle<'_>) -> R,
+) -> R {
+    let inputs = inputs(None, None);
+    let outputs = pipeline.combinational(&inputs);
+    let ranks = pipeline.ranks();
+    observe(&Cycle { index: cycles, inputs: &inputs, outputs: &outputs, ranks })
+}
+
 fn inputs(row: Option<StimulusCycle>, request: Option<(u32, i64)>) -> Inputs {
     let (address, x) = request.unwrap_or_default();
     Inputs {

@@ -4,6 +4,8 @@ use std::io::{self, Write};
 
 use hw_model::datapath::{Datapath, Register};
 
+use vectors::rtl::probes::ports;
+
 use crate::run::Cycle;
 
 /// Writes a line for each cycle: the ports, then every register of every rank before the edge. A
@@ -12,20 +14,6 @@ pub struct TraceWriter<W: Write> {
     csv: csv::Writer<W>,
     registers: Vec<Vec<Register>>,
 }
-
-/// The columns before the registers.
-const PORTS: [&str; 10] = [
-    "cycle",
-    "rst",
-    "in_valid",
-    "in_ready",
-    "address",
-    "x",
-    "out_valid",
-    "out_ready",
-    "intensity",
-    "status",
-];
 
 impl<W: Write> TraceWriter<W> {
     /// Writes the header.
@@ -36,7 +24,8 @@ impl<W: Write> TraceWriter<W> {
         let registers: Vec<_> =
             (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
         let mut csv = csv::Writer::from_writer(output);
-        let mut header: Vec<String> = PORTS.map(str::to_owned).to_vec();
+        let mut header = vec!["cycle".to_owned()];
+        header.extend(ports(datapath).iter().filter_map(|port| port.column.map(str::to_owned)));
         for (rank, registers) in registers.iter().enumerate() {
             header.push(format!("{}.valid", datapath.rank_name(rank)));
             header.extend(registers.iter().map(|register| datapath.register_name(rank, register)));

@@ -8,4 +8,5 @@ pub mod configurations;
 pub mod naive;
 pub mod reference;
 pub mod rtl;
+pub mod save_file;
 pub mod waves;

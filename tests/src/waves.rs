@@ -13,6 +13,8 @@ pub struct Waves {
     pub timescale: i8,
     /// The times of the rising edges.
     pub edges: Vec<Time>,
+    /// The last time at which anything changes.
+    pub end: Time,
     /// Every signal that has bits, by its full name: scopes and name with dots between them.
     pub signals: BTreeMap<String, Signal>,
 }
@@ -25,6 +27,8 @@ pub struct Signal {
     /// What it holds just before each rising edge, which is what a register takes in there: its digits
     /// from the highest bit down, `0`, `1`, `x` or `z`; empty before the first value.
     pub values: Vec<String>,
+    /// What it holds at the end of the file: what the last edge brought.
+    pub last: String,
 }
 
 impl Signal {
@@ -34,10 +38,22 @@ impl Signal {
     /// When there is no such edge, or no value yet, or more than 64 bits.
     #[must_use]
     pub fn word(&self, edge: usize) -> Option<u64> {
-        let digits = &self.values[edge];
-        assert!((1..=64).contains(&digits.len()), "{digits:?} is no word");
-        u64::from_str_radix(digits, 2).ok()
+        word(&self.values[edge])
     }
+
+    /// The value at the end as a number; `None` where a bit is unknown.
+    ///
+    /// # Panics
+    /// When there is no value, or more than 64 bits.
+    #[must_use]
+    pub fn last_word(&self) -> Option<u64> {
+        word(&self.last)
+    }
+}
+
+fn word(digits: &str) -> Option<u64> {
+    assert!((1..=64).contains(&digits.len()), "{digits:?} is no word");
+    u64::from_str_radix(digits, 2).ok()
 }
 
 impl Waves {
@@ -71,11 +87,14 @@ impl Waves {
         let (clock, _) = named.get(clock).unwrap_or_else(|| panic!("{at}: there is no {clock}"));
         let edges = rising(changes[clock]);
         let times = file.time_table();
-        let signal =
-            |(name, (id, width))| (name, Signal { width, values: before(changes[&id], &edges) });
+        let signal = |(name, (id, width))| {
+            let (values, last) = before(changes[&id], &edges);
+            (name, Signal { width, values, last })
+        };
         Self {
             timescale,
             edges: edges.iter().map(|&index| times[index as usize]).collect(),
+            end: times.last().copied().unwrap_or_default(),
             signals: named.into_iter().map(signal).collect(),
         }
     }
@@ -103,11 +122,11 @@ fn rising(clock: &Changes) -> Vec<u32> {
     levels.windows(2).filter(rises).map(|pair| pair[1].0).collect()
 }
 
-/// What a signal holds before each of these instants.
-fn before(signal: &Changes, instants: &[u32]) -> Vec<String> {
+/// What a signal holds before each of these instants, and at the end.
+fn before(signal: &Changes, instants: &[u32]) -> (Vec<String>, String) {
     let mut changes = signal.iter_changes().peekable();
     let mut held = String::new();
-    instants
+    let values = instants
         .iter()
         .map(|instant| {
             while let Some((_, value)) = changes.next_if(|(index, _)| index < instant) {
@@ -115,5 +134,6 @@ fn before(signal: &Changes, instants: &[u32]) -> Vec<String> {
             }
             held.clone()
         })
-        .collect()
+        .collect();
+    (values, changes.last().map_or(held, |(_, value)| value.to_string()))
 }

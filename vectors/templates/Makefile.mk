@@ -1,10 +1,10 @@
 # Runs the testbench of configuration [[ sources.design.config().name ]] in Icarus Verilog or Verilator.
 # Made by: [[ sources.command ]]
 #
-#   make icarus | verilator     run every vector; the last line is PASS or FAIL
+#   make icarus | verilator     run every vector; the verdict is a line that begins with PASS or FAIL
 #   make control                a corrupted vector must FAIL, at that vector
-#   make lint                   both tools, all warnings
-#   make waves                  run in Icarus and dump waves.vcd
+#   make lint                   both tools, all warnings, of the RTL and of the testbench
+#   make waves                  run in Icarus and dump waves.vcd; gtkwave waves.gtkw shows it
 #   make clean
 #
 # Options of the testbench go into ARGUMENTS: make icarus ARGUMENTS="+seed=7 +log=dut.csv".
@@ -26,8 +26,8 @@ VVP       ?= vvp
 ARGUMENTS ?=
 BUILD     ?= build
 
-# What a simulator prints, and its verdict as exit status.
-JUDGE = tee $(BUILD)/log && tail -n 1 $(BUILD)/log | grep -q '^PASS [1-9]'
+# What a simulator prints, and its verdict as exit status, whatever the simulator says of its own.
+JUDGE = tee $(BUILD)/log && ! grep -q '^FAIL' $(BUILD)/log && grep -q '^PASS [[ sources.vectors ]] vectors' $(BUILD)/log
 
 icarus: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp $(ARGUMENTS) | $(JUDGE)
@@ -40,11 +40,14 @@ verilator: $(BUILD)/verilated/blysk_tb
 
 control: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp +expected=negative_control.mem | tee $(BUILD)/log
-	@tail -n 1 $(BUILD)/log | grep -q '^FAIL vector [[ sources.control ]]: .*\.intensity is '
+	@grep -q '^FAIL vector [[ sources.control ]]: .*\.intensity is ' $(BUILD)/log && ! grep -q '^PASS' $(BUILD)/log
 
 # What a build is made of, by contents: DUT may name another file, or another tool be asked for, and a
 # file's time need not show it.
 $(BUILD)/%.sources: always
+<%- if !sources.is_own() %>
+	@test -n "$(strip $(DUT))" || { echo "say where [[ sources.dut ]] is: make DUT=FILE ..." >&2; exit 1; }
+<%- endif %>
 	@mkdir -p $(BUILD)
 	@{ echo "$(IVERILOG) $(VERILATOR)"; cksum $(RTL) blysk_tb.sv; } > $@.new
 	@cmp -s $@.new $@ || cp $@.new $@
@@ -63,6 +66,8 @@ $(BUILD)/verilated/blysk_tb: $(BUILD)/verilator.sources
 lint:
 	$(IVERILOG) -g2012 -Wall -s $(TOP) -o /dev/null $(RTL)
 	$(VERILATOR) --lint-only -Wall --top-module $(TOP) $(RTL)
+	$(IVERILOG) -g2012 -Wall -s blysk_tb -o /dev/null $(RTL) blysk_tb.sv
+	$(VERILATOR) --lint-only -Wall --timing --top-module blysk_tb $(RTL) blysk_tb.sv
 
 waves: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp +waves=waves.vcd $(ARGUMENTS) | $(JUDGE)

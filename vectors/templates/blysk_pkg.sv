@@ -1,5 +1,6 @@
 // Widths and constants of the configuration "[[ configuration ]]".
 // Made by: [[ command ]]
+`timescale 1ns / 1ps
 `default_nettype none
 
 package blysk_pkg;

@@ -25,6 +25,9 @@
 `timescale 1ns / 1ps
 `default_nettype none
 
+// One process judges and drives, and its tasks go on with what those before them have set in the same cycle: blocking
+// assignments to its own state, others to what the DUT reads.
+// verilator lint_off BLKSEQ
 module blysk_tb;
 
   localparam int VECTORS  = [[ vectors ]];
@@ -51,31 +54,80 @@ module blysk_tb;
   // The DUT reads it too; here only to see that all of it is there.
   logic [MARK+WORD-1:0]          rom      [0:DEPTH-1];
 
-  string  expected_file, waves_file, log_file;
-  integer seed, log, trace_cycles, total, i;
-  logic   plain;
+  // ---- Options --------------------------------------------------------------------------------------
+  string       expected_file, waves_file, log_file;
+  integer      seed, log, trace_cycles, total, i;
+  logic        plain;
+  // The state of the random numbers.
+  logic [31:0] random;
+
+  // ---- The mirror: which vector each rank holds -----------------------------------------------------
+  logic [RANKS-1:0] held, advance;
+  // Ranks that the last edge loaded, and those that any edge has.
+  logic [RANKS-1:0] loads, loaded;
+  integer           vector_of [0:RANKS-1];
+  integer           sent, received, cycle, stalls, bubbles, resets, reset_left, idle, rank;
+  integer           words_compared, failures;
+  logic [2:0]       mode;
+  logic             expect_ready, waits, ended;
+  string            first_failure;
+<%- if white_box %>
+  // What each vector showed, for the log.
+  logic [STAGES-1:0] seen [0:VECTORS-1];
+<%- endif %>
+
+  // ---- Clock, DUT ---------------------------------------------------------------------------------
+  logic               clk, rst, in_valid, out_ready;
+  logic [ADDRESS-1:0] address;
+  logic [INPUT-1:0]   x;
+  logic               in_ready, out_valid;
+  logic [OUTPUT-1:0]  intensity;
+  logic [STATUS-1:0]  status;
+
+  initial begin
+    clk = 1'b0;
+    // The end comes between two rising edges: waves have what the last one brought.
+    forever begin
+      #5 clk = !clk;
+      if (ended && !clk) $finish(0);
+    end
+  end
+
+  [[ dut ]] dut (
+    .clk_i(clk), .rst_i(rst),
+    .in_valid_i(in_valid), .in_ready_o(in_ready), .address_i(address), .x_i(x),
+    .out_valid_o(out_valid), .out_ready_i(out_ready), .intensity_o(intensity), .status_o(status)
+  );
+
+  // ---- Begin, end, and the files --------------------------------------------------------------------
+  // The rest of the cycle must say nothing more.
+  task automatic stop;
+    ended = 1'b1;
+  endtask
 
   // `known` is the exclusive or of the word's bits, which is x where one of them is.
   task automatic complete(input logic unwritten, input logic known, input string name, input integer index);
     if (ended) begin
     end else if (known === 1'bx) begin
       $display("FAIL %0s: word %0d has an x or z in it", name, index);
-      $finish;
-      ended = 1'b1;
+      stop;
     end else if (unwritten !== 1'b0) begin
       $display("FAIL %0s: word %0d is missing; the file is not there or is too short", name, index);
-      $finish;
-      ended = 1'b1;
+      stop;
     end
   endtask
 
   initial begin
-    ended = 1'b0;
+    rst = 1'b1; in_valid = 1'b0; address = '0; x = '0; out_ready = 1'b0;
+    held = '0; loads = '0; loaded = '0; waits = 1'b0;
+    sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = '0;
+    words_compared = 0; failures = 0; ended = 1'b0;
+    reset_left = 2;
     if (!$value$plusargs("seed=%d", seed)) seed = 1;
     if (!$value$plusargs("expected=%s", expected_file)) expected_file = "expected.mem";
     if (!$value$plusargs("registers=%d", trace_cycles)) trace_cycles = 0;
     plain = $test$plusargs("plain") != 0;
-    random = 32'(seed) * 32'h9e3779b9 + 32'h7f4a7c15;
+    random = seed * 32'h9e3779b9 + 32'h7f4a7c15;
     if (random == 0) random = 1;
     for (i = 0; i < VECTORS; i = i + 1) begin
       stimulus[i] = '1;
@@ -110,47 +162,24 @@ module blysk_tb;
     while (!plain && total < REQUESTS && VECTORS > 0) total = total + VECTORS;
     if (VECTORS == 0 && !ended) begin
       $display("FAIL no vectors: nothing would be checked");
-      $finish;
-      ended = 1'b1;
+      stop;
     end
     if ($value$plusargs("waves=%s", waves_file)) begin
       $dumpfile(waves_file);
-      $dumpvars(0, blysk_tb);
+      $dumpvars;
     end
     log = 0;
     if ($value$plusargs("log=%s", log_file)) begin
       log = $fopen(log_file, "w");
       if (log == 0) begin
         $display("FAIL cannot write %0s", log_file);
-        $finish;
-        ended = 1'b1;
+        stop;
       end
       $fwrite(log, "index,intensity,status[[ log_columns ]]\n");
     end
   end
 
-  // ---- Clock, DUT ---------------------------------------------------------------------------------
-  logic               clk = 1'b0;
-  logic               rst = 1'b1;
-  logic               in_valid = 1'b0;
-  logic [ADDRESS-1:0] address = '0;
-  logic [INPUT-1:0]   x = '0;
-  logic               out_ready = 1'b0;
-  logic               in_ready, out_valid;
-  logic [OUTPUT-1:0]  intensity;
-  logic [STATUS-1:0]  status;
-
-  always #5 clk = !clk;
-
-  [[ dut ]] dut (
-    .clk_i(clk), .rst_i(rst),
-    .in_valid_i(in_valid), .in_ready_o(in_ready), .address_i(address), .x_i(x),
-    .out_valid_o(out_valid), .out_ready_i(out_ready), .intensity_o(intensity), .status_o(status)
-  );
-
   // ---- Random numbers: xorshift, the same in every simulator ----------------------------------------
-  logic [31:0] random;
-
   task automatic draw;
     random = random ^ (random << 13);
     random = random ^ (random >> 17);
@@ -158,22 +187,18 @@ module blysk_tb;
   endtask
 
   // ---- Failures -------------------------------------------------------------------------------------
-  integer failures = 0;
-  string  first_failure;
-  logic   ended;
-
   function automatic real value(input logic [63:0] bits, input integer width, input integer is_signed,
                                 input integer fraction);
-    logic [63:0] magnitude;
-    magnitude = bits;
-    if (is_signed != 0 && bits[width-1]) magnitude = (~bits + 64'd1) & ((64'd1 << width) - 64'd1);
+    logic [62:0] magnitude;
+    magnitude = bits[62:0];
+    if (is_signed != 0 && bits[width-1]) magnitude = 63'((~bits + 64'd1) & ((64'd1 << width) - 64'd1));
     value = $itor(magnitude[61:31]) * 2147483648.0 + $itor(magnitude[30:0])
         + (magnitude[62] ? 4611686018427387904.0 : 0.0);
     if (is_signed != 0 && bits[width-1]) value = -value;
     value = value / (2.0 ** fraction);
   endfunction
 
-  task automatic fail(input integer index, input integer at_rank, input string where,
+  task automatic fail(input integer index, input logic load, input string where,
                       input logic [63:0] got, input logic [63:0] wanted, input integer width,
                       input integer is_signed, input integer fraction);
     logic [ADDRESS-1:0] fail_address;
@@ -189,41 +214,20 @@ module blysk_tb;
         value(64'(fail_x), INPUT, [[ x.signed ]], [[ x.fraction ]]), cycle, where,
         width, got, value(got, width, is_signed, fraction),
         width, wanted, value(wanted, width, is_signed, fraction),
-        loads[at_rank] ? "" : "; no load in this cycle, it must hold: its enable, or the handshake");
+        load ? "" : "; no load in this cycle, it must hold: its enable, or the handshake");
     end
     if (log == 0) begin
       $display("FAIL %0s", first_failure);
-      $finish;
-      ended = 1'b1;
+      stop;
     end
   endtask
 
   task automatic fail_port(input string port, input logic got, input logic wanted, input string why);
     failures = failures + 1;
     $display("FAIL handshake, cycle %0d: %0s is %b, expected %b: %0s", cycle, port, got, wanted, why);
-    $finish;
-    ended = 1'b1;
+    stop;
   endtask
-
-  // ---- The mirror: which vector each rank holds -----------------------------------------------------
-  logic [RANKS-1:0] held, advance;
-  // Ranks that the last edge loaded, and those that any edge has.
-  logic [RANKS-1:0] loads, loaded;
-  integer           vector_of [0:RANKS-1];
-  integer           sent, received, cycle, stalls, bubbles, resets, reset_left, idle, rank;
-  integer           words_compared, mode;
-  logic             expect_ready, waits;
-
-  initial begin
-    held = '0; loads = '0; loaded = '0; waits = 1'b0;
-    sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = 0;
-    words_compared = 0;
-    reset_left = 2;
-  end
 <%- if white_box %>
-
-  // What each vector showed, for the log.
-  logic [STAGES-1:0] seen [0:VECTORS-1];
 
   // Every register of every rank that was ever loaded; the first that departs is the fault's stage.
   task automatic compare_registers;
@@ -233,7 +237,7 @@ module blysk_tb;
       word = stages[vector_of[ [[ rank.index ]] ]][STAGES-1:0];
 <%- for register in rank.registers %>
       if ([[ register.path ]] !== word[ [[ register.msb ]]:[[ register.lsb ]] ] && !ended)
-        fail(vector_of[ [[ rank.index ]] ], [[ rank.index ]], "[[ register.name ]]", 64'([[ register.path ]]),
+        fail(vector_of[ [[ rank.index ]] ], loads[ [[ rank.index ]] ], "[[ register.name ]]", 64'([[ register.path ]]),
           64'(word[ [[ register.msb ]]:[[ register.lsb ]] ]), [[ register.width ]], [[ register.signed ]], [[ register.fraction ]]);
 <%- if register.computed %>
       if (held[ [[ rank.index ]] ]) seen[vector_of[ [[ rank.index ]] ]][ [[ register.msb ]]:[[ register.lsb ]] ] = [[ register.path ]];
@@ -249,15 +253,14 @@ module blysk_tb;
     integer index;
     index = vector_of[RANKS-1];
     if (intensity !== expected[index][OUTPUT-1:0] && !ended)
-      fail(index, RANKS - 1, "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
+      fail(index, loads[RANKS-1], "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
     if (status !== expected[index][STATUS+OUTPUT-1:OUTPUT] && !ended)
-      fail(index, RANKS - 1, "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
+      fail(index, loads[RANKS-1], "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
     words_compared = words_compared + 2;
     if (out_ready && !rst) begin
       if (index != received % VECTORS && !ended) begin
         $display("FAIL order: a mistake of the mirror");
-        $finish;
-        ended = 1'b1;
+        stop;
       end
       if (log != 0 && received < VECTORS) $fwrite(log, "%0d,%h,%h[[ log_format ]]\n", index, intensity, status[[ log_values ]]);
       received = received + 1;
@@ -318,7 +321,7 @@ module blysk_tb;
   // all full shows an advance that is worked out from the wrong ranks.
   task automatic drive;
     draw;
-    if (cycle % 64 == 0) mode = plain ? 0 : cycle < 256 ? cycle / 64 : 32'(random[10:8]);
+    if (cycle % 64 == 0) mode = plain ? 3'd0 : cycle < 256 ? 3'(cycle / 64) : random[10:8];
     if (reset_left > 0) reset_left = reset_left - 1;
     else if (!plain && resets < 3 && sent > (resets + 1) * (total / 4) && random[31:28] == 0) begin
       reset_left = 2;
@@ -358,8 +361,7 @@ module blysk_tb;
         else if (!plain && (stalls == 0 || bubbles == 0 || resets == 0))
           $display("FAIL a run without stalls, bubbles or resets shows little; use another +seed");
         else $display("PASS %0d vectors", VECTORS);
-        $finish;
-        ended = 1'b1;
+        stop;
       end
     end
   end
@@ -371,7 +373,7 @@ module blysk_tb;
   task automatic drive_anything;
     integer pick;
     draw;
-    if (cycle % 64 == 0) mode = 32'(random[9:8]);
+    if (cycle % 64 == 0) mode = {1'b0, random[9:8]};
     rst <= cycle < 2 || random[31:24] == 0;
     out_ready <= !(mode[0] && random[0]);
     in_valid <= !(mode[1] && random[1]);
@@ -379,7 +381,7 @@ module blysk_tb;
     pick = 32'(random[3:0]);
     draw;
     address <= pick[0] ? ADDRESS'(random % DEPTH) : ADDRESS'(random);
-    if (DEPTH > 1 && pick[3:1] != 0) address <= ADDRESS'(random[30:8] % DEPTH);
+    if (DEPTH > 1 && pick[3:1] != 0) address <= ADDRESS'(32'(random[30:8]) % DEPTH);
     draw;
     if (pick == 0) x <= INPUT'({random, ~random});
     else if (pick < 10) x <= INPUT'(64'd1 << [[ x.fraction ]]) - INPUT'({random, random} >> (64 - [[ x.fraction ]] + pick));
@@ -395,13 +397,13 @@ module blysk_tb;
       cycle = cycle + 1;
       if (cycle == trace_cycles) begin
         $display("R-END %0d", cycle);
-        $finish;
-        ended = 1'b1;
+        stop;
       end
     end
   end
 <%- endif %>
 
 endmodule
+// verilator lint_on BLKSEQ
 
 `default_nettype wire

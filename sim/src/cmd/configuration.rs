@@ -7,6 +7,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use hw_model::config::{Config, ConfigError};
 use hw_model::design::Design;
+use hw_model::names;
 use hw_model::presets;
 
 /// Which configuration.
@@ -63,8 +64,8 @@ impl Configuration {
     /// The option as it would be typed, for the headers of generated files.
     pub(super) fn option(&self) -> String {
         match (&self.preset, &self.config) {
-            (Some(name), _) => format!("--preset {}", quoted(name)),
-            (None, Some(path)) => format!("--config {}", quoted(&path.display().to_string())),
+            (Some(name), _) => format!("--preset {}", names::shell(name)),
+            (None, Some(path)) => format!("--config {}", names::shell(path)),
             (None, None) => String::new(),
         }
     }
@@ -110,14 +111,4 @@ pub(super) fn find_preset(name: &str) -> anyhow::Result<presets::Preset> {
         let names: Vec<&str> = presets::ALL.iter().map(|preset| preset.name).collect();
         format!("there is no preset {name:?}; the presets are {}", names.join(", "))
     })
-}
-
-/// An argument as a shell takes it.
-pub(super) fn quoted(argument: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "._-+=/,:@%".contains(c);
-    if !argument.is_empty() && argument.chars().all(plain) {
-        argument.to_owned()
-    } else {
-        format!("'{}'", argument.replace('\'', r"'\''"))
-    }
 }

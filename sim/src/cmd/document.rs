@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
+use hw_model::names;
 use hw_model::presets;
 use vectors::OutputSet;
 
-use super::configuration::{find_preset, load_config, quoted};
+use super::configuration::{find_preset, load_config};
 use super::{Out, Outcome};
 use crate::document::{COMMON, Subject, stage};
 
@@ -49,13 +50,13 @@ impl Choice {
         let design = |config, origin: String| Design::new(config).with_context(|| origin);
         let preset = |preset: presets::Preset| {
             let made = design(preset.config()?, format!("preset {}", preset.name))?;
-            Ok((made, format!("--preset {}", quoted(preset.name))))
+            Ok((made, format!("--preset {}", names::shell(preset.name))))
         };
         match (&self.preset, &self.config) {
             (Some(name), _) => Ok(vec![preset(find_preset(name)?)?]),
             (None, Some(path)) => {
                 let shown = path.display().to_string();
-                let option = format!("--config {}", quoted(&shown));
+                let option = format!("--config {}", names::shell(path));
                 Ok(vec![(design(load_config(path)?, shown)?, option)])
             }
             (None, None) if self.all_presets => presets::ALL.into_iter().map(preset).collect(),

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
+use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
@@ -38,15 +39,8 @@ pub(super) struct Args {
     seed: u64,
 }
 
-/// A simple Verilog identifier.
-fn module_name(text: &str) -> Result<String, String> {
-    let first = |c: char| c.is_ascii_alphabetic() || c == '_';
-    let rest = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '$';
-    if text.starts_with(first) && text.chars().all(rest) {
-        Ok(text.to_owned())
-    } else {
-        Err("use the name of a module: letters, digits and _, not beginning with a digit".into())
-    }
+fn module_name(text: &str) -> Result<String, NameError> {
+    names::module(text).map(|()| text.to_owned())
 }
 
 impl Args {
@@ -67,10 +61,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let mut set = OutputSet::create(&args.out)?;
     let manifest = rtl::stage(&bundle, &args.dut, &command, &mut set)?;
     set.commit()?;
-    let place = args.out.display();
+    let place = names::shell(&args.out);
+    let dut = if args.dut == TOP { "" } else { " DUT=FILE" };
     writeln!(
         out,
-        "{place}: module {}, latency {} cycles, {} vectors; try: make -C {place} icarus",
+        "{place}: module {}, latency {} cycles, {} vectors; try: make -C {place} icarus{dut}",
         args.dut, manifest.hardware.latency, manifest.counts.vectors,
     )?;
     Ok(Outcome::Good)

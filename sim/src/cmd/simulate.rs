@@ -12,9 +12,9 @@ use super::configuration::Configuration;
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
 use crate::pipeline::Pipeline;
-use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus};
+use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus, settle};
 use crate::trace::TraceWriter;
-use crate::waves::{WaveFormat, WaveWriter};
+use crate::waves::{SAVE_FILE, WaveFormat, WaveWriter, save_file};
 
 /// Run a stimulus through the clocked pipeline; record every register, every cycle.
 ///
@@ -34,10 +34,11 @@ pub(super) struct Args {
     /// Write every port and register of every cycle to this CSV file.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
-    /// Write waves to this file, which ends in .vcd, or in .fst for a small part of the size.
+    /// Write waves to this file, which ends in .vcd, or in .fst for a small part of the size; and beside it
+    /// a save file for GTKWave, which ends in .gtkw.
     #[arg(long, value_name = "FILE")]
     waves: Option<PathBuf>,
-    /// Write trace.csv and waves.vcd to this directory.
+    /// Write trace.csv, waves.vcd and waves.gtkw to this directory.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["trace", "waves"])]
     out: Option<PathBuf>,
     /// How to print the counts.
@@ -53,22 +54,34 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         None => (args.trace.clone(), args.waves.clone()),
         Some(directory) => (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd"))),
     };
-    if trace.is_some() && trace.as_deref().map(place) == waves.as_deref().map(place) {
+    let save = waves.as_ref().map(|waves| waves.with_extension(SAVE_FILE));
+    let same = |other: &Option<PathBuf>| {
+        trace.is_some() && trace.as_deref().map(place) == other.as_deref().map(place)
+    };
+    if same(&waves) {
         bail!("--trace and --waves name the same file; give each its own");
+    }
+    if same(&save) {
+        bail!("--trace names the save file that comes with --waves; give it another name");
     }
     let format = waves.as_deref().map(wave_format).transpose()?;
     // Nothing gets its name before the run is over.
     let mut trace = trace.map(WholeFile::create).transpose()?;
-    let mut waves = waves.map(WholeFile::create).transpose()?;
     let name = &design.config().name;
+    let shown = waves.as_deref().map(|waves| save_file(name, datapath, waves));
+    let mut waves = waves.map(WholeFile::create).transpose()?;
+    let mut save = save.map(WholeFile::create).transpose()?;
+    if let Some((file, text)) = save.as_mut().zip(shown) {
+        file.write_all(text.as_bytes()).map_err(|error| file.error(error))?;
+    }
     let mut recorders = Recorders::new(trace.as_mut(), format.zip(waves.as_mut()), name, datapath)?;
-    let counts = run_stimulus(
-        &mut Pipeline::new(datapath),
-        stimulus.iter().map(|line| Ok(cycle(line))),
-        |cycle| recorders.cycle(cycle),
-    )?;
-    recorders.finish(counts.cycles)?;
-    for file in [trace, waves].into_iter().flatten() {
+    let mut pipeline = Pipeline::new(datapath);
+    let counts =
+        run_stimulus(&mut pipeline, stimulus.iter().map(|line| Ok(cycle(line))), |cycle| {
+            recorders.cycle(cycle)
+        })?;
+    settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
+    for file in [trace, waves, save].into_iter().flatten() {
         file.commit()?;
     }
     print(&counts, datapath.rank_count(), args.format, out)?;
@@ -154,12 +167,12 @@ impl<'a> Recorders<'a> {
         Ok(())
     }
 
-    fn finish(self, cycles: u64) -> anyhow::Result<()> {
+    fn finish(self, settled: &Cycle<'_>) -> anyhow::Result<()> {
         if let Some(trace) = self.trace {
             trace.finish()?;
         }
         if let Some(waves) = self.waves {
-            waves.finish(cycles)?;
+            waves.finish(settled)?;
         }
         Ok(())
     }

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
+use hw_model::names;
 use hw_model::rtl::TOP;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
-use super::configuration::{MaybeConfiguration, quoted};
+use super::configuration::MaybeConfiguration;
 use super::report::Bar;
 use super::scene::load;
 use super::synthesis;
@@ -78,7 +79,7 @@ impl Args {
         let Self { count, seed, .. } = self;
         format!(
             "blysk specialise {} {}{codes} --count {count} --seed {seed}",
-            quoted(&scene.to_string_lossy()),
+            names::shell(scene),
             self.configuration.option()
         )
     }

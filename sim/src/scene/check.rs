@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io;
 
 use hw_model::exponents::MAX_EXPONENT;
+use hw_model::names;
 
 use super::description::{self as said, Description, Geometry, Triple};
 use super::error::{MeshError, SceneError};
@@ -32,9 +33,8 @@ pub(super) fn scene(
     description: &Description,
     read: &mut dyn FnMut(&str) -> io::Result<String>,
 ) -> Checked<Scene> {
-    let named = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if description.name.is_empty() || !description.name.chars().all(named) {
-        return wrong("name", "use letters, digits, - and _");
+    if let Err(error) = names::label(&description.name) {
+        return wrong("name", error.to_string());
     }
     image(&description.image, description.lights.len())?;
     let view = view(&description.camera)?;

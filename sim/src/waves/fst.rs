@@ -7,7 +7,8 @@ use fst_writer::{
     FstVarDirection, FstVarType, FstWriteError,
 };
 
-use super::{Hierarchy, Scope, Sink};
+use super::Sink;
+use super::hierarchy::{Hierarchy, Scope};
 
 /// Changes are held in memory, by signal, until there are so many bytes of them; then they become a
 /// block of the file. Larger blocks are hardly smaller files.
@@ -15,9 +16,6 @@ const BLOCK_BYTES: usize = 4 << 20;
 
 /// Seconds to the power of ten: ns.
 const TIMESCALE: i8 = -9;
-
-/// The longest name that readers of the format are sure to have room for.
-const NAME_BYTES: usize = 511;
 
 /// An FST file under way.
 pub(super) struct FstSink<W: Write + Seek> {
@@ -36,8 +34,7 @@ impl<W: Write + Seek> FstSink<W> {
             date: String::new(),
             file_type: FstFileType::Verilog,
         };
-        let mut ids = Vec::new();
-        let fst = header(output, &info, hierarchy, &mut ids).map_err(io_error)?;
+        let (fst, ids) = header(output, &info, hierarchy).map_err(io_error)?;
         Ok(Self { fst, ids })
     }
 }
@@ -46,32 +43,31 @@ fn header<W: Write + Seek>(
     output: W,
     info: &FstInfo,
     hierarchy: &Hierarchy,
-    ids: &mut Vec<FstSignalId>,
-) -> fst_writer::Result<FstBodyWriter<W>> {
-    let mut fst = FstHeaderWriter::new(output, info)?;
-    begin(&mut fst, &hierarchy.top, ids)?;
-    for rank in &hierarchy.ranks {
-        begin(&mut fst, rank, ids)?;
-        fst.up_scope()?;
-    }
-    fst.up_scope()?;
-    fst.finish()
+) -> fst_writer::Result<(FstBodyWriter<W>, Vec<FstSignalId>)> {
+    let mut header = FstHeaderWriter::new(output, info)?;
+    let mut ids = vec![None; hierarchy.widths.len()];
+    declare(&mut header, &hierarchy.top, &hierarchy.widths, &mut ids)?;
+    // Every signal has a name.
+    Ok((header.finish()?, ids.into_iter().flatten().collect()))
 }
 
-fn begin<W: Write + Seek>(
-    fst: &mut FstHeaderWriter<W>,
+/// A scope, its signals and the scopes inside. A further name of a signal is an alias.
+fn declare<W: Write + Seek>(
+    header: &mut FstHeaderWriter<W>,
     scope: &Scope,
-    ids: &mut Vec<FstSignalId>,
+    widths: &[u32],
+    ids: &mut [Option<FstSignalId>],
 ) -> fst_writer::Result<()> {
-    // The name of a configuration is ASCII and as long as it likes; all others are short.
-    let name = scope.name.get(..NAME_BYTES).unwrap_or(&scope.name);
-    fst.scope(name, "", FstScopeType::Module)?;
-    for signal in &scope.signals {
-        let bits = FstSignalType::bit_vec(signal.width);
+    header.scope(&scope.name, "", FstScopeType::Module)?;
+    for (name, number) in &scope.signals {
+        let bits = FstSignalType::bit_vec(widths[*number]);
         let (kind, direction) = (FstVarType::Wire, FstVarDirection::Implicit);
-        ids.push(fst.var(&signal.name, bits, kind, direction, None)?);
+        ids[*number] = Some(header.var(name, bits, kind, direction, ids[*number])?);
     }
-    Ok(())
+    for inner in &scope.scopes {
+        declare(header, inner, widths, ids)?;
+    }
+    header.up_scope()
 }
 
 impl<W: Write + Seek> Sink for FstSink<W> {

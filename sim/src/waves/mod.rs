@@ -1,20 +1,26 @@
-//! Waves, with the names of the RTL.
+//! Waves, with the names of traces and of the RTL (`hierarchy.rs`).
 //!
 //! The clock has a period of 10 ns and rises at 5, 15, 25, … ns. Registers and inputs change with the
 //! rising edge, so what cycle k shows stands from 10·k − 5 to 10·k + 5 ns, its last instant being the edge at
-//! which [`Cycle`] is taken. A register that was never loaded is `x`.
+//! which [`Cycle`] is taken. A register that was never loaded is `x`. The last edge has its effect too: half a cycle
+//! follows it, in which nothing is presented ([`crate::run::settle`]).
 //!
 //! Here is what the waves show; how a file says it is the business of one `Sink` for each format.
 
 mod fst;
+mod hierarchy;
 mod vcd;
 
 use std::io::{self, Seek, Write};
+use std::path::Path;
 
 use hw_model::datapath::{Datapath, Register};
 use hw_model::format::QFormat;
+use vectors::rtl::probes::{ports, probes};
+use vectors::rtl::{self, Names};
 
 use crate::run::Cycle;
+use hierarchy::Hierarchy;
 
 const HALF_PERIOD: u64 = 5;
 
@@ -41,24 +47,16 @@ impl WaveFormat {
     }
 }
 
-/// A signal: its name and its bits.
-struct Signal {
-    name: String,
-    width: u32,
+/// What GTKWave shows of the waves in the file `dump`: ports and ranks in groups,
+/// registers as the numbers they are.
+#[must_use]
+pub fn save_file(name: &str, datapath: &Datapath, dump: &Path) -> String {
+    let dump = dump.file_name().and_then(|name| name.to_str());
+    rtl::save_file(datapath, Names::Ranks, &hierarchy::top(name), dump)
 }
 
-/// Signals below one name.
-struct Scope {
-    name: String,
-    signals: Vec<Signal>,
-}
-
-/// All signals: those of the top, the clock first, then those of a scope for each rank. A signal's
-/// number is its place in this order.
-struct Hierarchy {
-    top: Scope,
-    ranks: Vec<Scope>,
-}
+/// What the names of save files end in, without the dot.
+pub const SAVE_FILE: &str = "gtkw";
 
 /// A file of waves under way, whose header is written.
 trait Sink {
@@ -73,7 +71,7 @@ trait Sink {
 }
 
 /// The bits of a signal; `None` is unknown.
-type Word = Option<u64>;
+type Word = Option<u128>;
 
 /// The number of the clock, and of the signal after it.
 const CLOCK: usize = 0;
@@ -99,7 +97,7 @@ pub struct WaveWriter<'a> {
 }
 
 impl<'a> WaveWriter<'a> {
-    /// Writes the header: one module named after the configuration, a scope inside for each rank.
+    /// Writes the header: one module named after the configuration, with scopes inside.
     ///
     /// # Errors
     /// When `output` cannot be written.
@@ -109,15 +107,14 @@ impl<'a> WaveWriter<'a> {
         name: &str,
         datapath: &Datapath,
     ) -> io::Result<Self> {
-        let registers: Vec<_> =
-            (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
-        let hierarchy = Hierarchy {
-            // A hyphen has no place in an identifier.
-            top: Scope { name: name.replace('-', "_"), signals: ports(datapath) },
-            ranks: (0..).zip(&registers).map(|(rank, list)| scope(datapath, rank, list)).collect(),
-        };
-        let wire = |signal: &Signal| Wire { width: signal.width, last: None };
-        let wires = hierarchy.signals().skip(FIRST).map(wire).collect();
+        let probes = probes(datapath);
+        let hierarchy = Hierarchy::new(name, datapath, &ports(datapath), &probes);
+        let of_rank = |rank| probes.iter().filter(move |probe| probe.rank == rank);
+        let registers = (0..datapath.rank_count())
+            .map(|rank| of_rank(rank).map(|probe| probe.register).collect())
+            .collect();
+        let wire = |&width| Wire { width, last: None };
+        let wires = hierarchy.widths.iter().skip(FIRST).map(wire).collect();
         let sink: Box<dyn Sink + 'a> = match format {
             WaveFormat::Vcd => Box::new(vcd::VcdSink::new(output, &hierarchy)?),
             WaveFormat::Fst => Box::new(fst::FstSink::new(output, &hierarchy)?),
@@ -170,71 +167,35 @@ impl<'a> WaveWriter<'a> {
     fn words(&self, cycle: &Cycle<'_>) -> Vec<Word> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
         let shown = cycle.ranks.last().loaded;
-        let flag = |flag: bool| Some(u64::from(flag));
+        let flag = |flag: bool| Some(u128::from(flag));
         let mut words = vec![
             flag(inputs.reset),
             flag(inputs.in_valid),
             flag(outputs.in_ready),
             Some(inputs.address.into()),
-            Some(self.input.to_word(inputs.x)),
+            Some(self.input.to_word(inputs.x).into()),
             flag(outputs.out_valid),
             flag(inputs.out_ready),
-            shown.then(|| self.output.to_word(outputs.intensity)),
+            shown.then(|| self.output.to_word(outputs.intensity).into()),
             shown.then_some(outputs.status.bits().into()),
         ];
         for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
             words.push(flag(rank.valid));
             words.extend(registers.iter().map(|register| {
-                rank.loaded.then(|| register.format.to_word((register.bits)(&rank.signals)))
+                let word = || register.format.to_word((register.bits)(&rank.signals)).into();
+                rank.loaded.then(word)
             }));
         }
+        words.push(Some(cycle.ranks.valid()));
         words
     }
 
-    /// Writes the last rising edge, and flushes.
+    /// Writes what the last edge brought, up to the falling edge behind it, and flushes.
     ///
     /// # Errors
     /// When the output cannot be written.
-    pub fn finish(mut self, cycles: u64) -> io::Result<()> {
-        if cycles > 0 {
-            self.sink.time(2 * HALF_PERIOD * cycles - HALF_PERIOD)?;
-            self.sink.change(CLOCK, b"1")?;
-        }
+    pub fn finish(mut self, settled: &Cycle<'_>) -> io::Result<()> {
+        self.cycle(settled)?;
         self.sink.finish()
     }
-}
-
-impl Hierarchy {
-    /// Every signal, in the order of their numbers.
-    fn signals(&self) -> impl Iterator<Item = &Signal> {
-        self.top.signals.iter().chain(self.ranks.iter().flat_map(|rank| &rank.signals))
-    }
-}
-
-/// The clock and the ports.
-fn ports(datapath: &Datapath) -> Vec<Signal> {
-    let formats = datapath.formats();
-    let ports = [
-        ("clk_i", 1),
-        ("rst_i", 1),
-        ("in_valid_i", 1),
-        ("in_ready_o", 1),
-        ("address_i", datapath.rom().address_width()),
-        ("x_i", formats.input.width()),
-        ("out_valid_o", 1),
-        ("out_ready_i", 1),
-        ("intensity_o", formats.output.width()),
-        ("status_o", datapath.status_width()),
-    ];
-    ports.map(|(name, width)| Signal { name: name.to_owned(), width }).into()
-}
-
-/// The valid flag and the registers of a rank.
-fn scope(datapath: &Datapath, rank: usize, registers: &[Register]) -> Scope {
-    let mut signals = vec![Signal { name: "valid_q".to_owned(), width: 1 }];
-    signals.extend(registers.iter().map(|register| Signal {
-        name: format!("{}_q", register.name),
-        width: register.format.width(),
-    }));
-    Scope { name: datapath.rank_name(rank), signals }
 }

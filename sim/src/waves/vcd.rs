@@ -2,9 +2,10 @@
 
 use std::io::{self, Write};
 
-use vcd::{TimescaleUnit, Writer};
+use vcd::{IdCode, TimescaleUnit, VarType, Writer};
 
-use super::{Hierarchy, Scope, Sink};
+use super::Sink;
+use super::hierarchy::{Hierarchy, Scope};
 
 /// A VCD file under way.
 ///
@@ -19,26 +20,38 @@ pub(super) struct VcdSink<W: Write> {
 impl<W: Write> VcdSink<W> {
     /// Writes the header.
     pub(super) fn new(output: W, hierarchy: &Hierarchy) -> io::Result<Self> {
-        let mut sink = Self { vcd: Writer::new(output), ends: Vec::new(), line: Vec::new() };
-        sink.vcd.timescale(1, TimescaleUnit::NS)?;
-        sink.begin(&hierarchy.top)?;
-        for rank in &hierarchy.ranks {
-            sink.begin(rank)?;
-            sink.vcd.upscope()?;
-        }
-        sink.vcd.upscope()?;
-        sink.vcd.enddefinitions()?;
-        Ok(sink)
+        let mut vcd = Writer::new(output);
+        vcd.timescale(1, TimescaleUnit::NS)?;
+        let mut ids = vec![None; hierarchy.widths.len()];
+        declare(&mut vcd, &hierarchy.top, &hierarchy.widths, &mut ids)?;
+        vcd.enddefinitions()?;
+        // Every signal has a name.
+        let signals = ids.into_iter().flatten().zip(&hierarchy.widths);
+        let end = |(id, &width)| format!("{}{id}\n", if width == 1 { "" } else { " " });
+        let ends = signals.map(end).collect();
+        Ok(Self { vcd, ends, line: Vec::new() })
     }
+}
 
-    fn begin(&mut self, scope: &Scope) -> io::Result<()> {
-        self.vcd.add_module(&scope.name)?;
-        for signal in &scope.signals {
-            let id = self.vcd.add_wire(signal.width, &signal.name)?;
-            self.ends.push(format!("{}{id}\n", if signal.width == 1 { "" } else { " " }));
+/// A scope, its signals and the scopes inside. A further name of a signal has the same code.
+fn declare<W: Write>(
+    vcd: &mut Writer<W>,
+    scope: &Scope,
+    widths: &[u32],
+    ids: &mut [Option<IdCode>],
+) -> io::Result<()> {
+    vcd.add_module(&scope.name)?;
+    for (name, number) in &scope.signals {
+        let width = widths[*number];
+        match ids[*number] {
+            None => ids[*number] = Some(vcd.add_wire(width, name)?),
+            Some(id) => vcd.var_def(VarType::Wire, width, id, name, None)?,
         }
-        Ok(())
     }
+    for inner in &scope.scopes {
+        declare(vcd, inner, widths, ids)?;
+    }
+    vcd.upscope()
 }
 
 impl<W: Write> Sink for VcdSink<W> {

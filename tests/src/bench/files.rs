@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use hw_model::design::Design;
 use sim::pipeline::{Inputs, Pipeline};
-use sim::run::Cycle;
+use sim::run::{Cycle, settle};
 use sim::waves::{WaveFormat, WaveWriter};
 use vectors::{Bundle, Strategy};
 
@@ -78,6 +78,6 @@ pub fn waves(design: &Design, cycles: u64, path: &Path) -> Result<Timed, Failure
         writer.cycle(&cycle).map_err(failure)?;
         pipeline.clock();
     }
-    writer.finish(cycles).map_err(failure)?;
+    settle(&mut pipeline, cycles, |settled| writer.finish(settled)).map_err(failure)?;
     Ok(Timed { count: cycles, seconds: processor() - begin, checksum: 0 })
 }

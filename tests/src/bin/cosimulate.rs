@@ -1,8 +1,9 @@
 //! `make rtl`: every preset's RTL in every simulator, against the model.
 //!
 //! Vectors with stalls, bubbles and resets; random cycles in which every register is compared; a small
-//! configuration exhaustively; a corrupted vector and planted faults, which must be found. Yosys counts
-//! the parts of each netlist, and FuseSoC runs the core file. Ends with what was compared, and fails when
+//! configuration exhaustively; a corrupted vector and planted faults, which must be found. The emitted Makefile's
+//! targets are run in Icarus 11, 12 and 13 as they are typed; slang, Verible and Surelog read RTL and testbench. Yosys
+//! counts the parts of each netlist, and FuseSoC runs the core file. Ends with what was compared, and fails when
 //! anything differs or nothing was compared.
 
 use std::io::BufReader;
@@ -12,7 +13,7 @@ use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
 use blysk_tests::rtl::{Failure, failed};
-use blysk_tests::rtl::{fusesoc, netlist_parts, specialised, waves};
+use blysk_tests::rtl::{fusesoc, netlist_parts, readers, rom_image, specialised, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -110,6 +111,7 @@ fn main() -> ExitCode {
 fn run() -> Result<Totals, Failure> {
     let simulators = simulators::all()?;
     let names: Vec<&str> = simulators.iter().map(|simulator| simulator.name.as_str()).collect();
+    let releases = simulators::icarus_releases()?;
     println!("{}", names.join(", "));
     println!(
         "{:<14} {:<18} {:>9} {:>10} {:>13}",
@@ -122,7 +124,9 @@ fn run() -> Result<Totals, Failure> {
             fusesoc::check(&emitted)?;
             fusesoc::check_dut(&design)?;
         }
-        everything(&emitted, preset.name, &simulators, Some(VERILATOR_CYCLES))
+        let total = everything(&emitted, preset.name, &simulators, Some(VERILATOR_CYCLES))?;
+        flows(&emitted, preset.name, &releases)?;
+        Ok(total)
     });
     let scenes = SCENES.par_iter().map(|scene| {
         let design = specialised::of_paper(scene)?;
@@ -164,6 +168,7 @@ fn everything(
     random_cycles: Option<u64>,
 ) -> Result<Totals, Failure> {
     simulators::yosys_reads(&emitted.directory)?;
+    readers::check(&emitted.directory).map_err(|error| Failure(format!("{name}: {error}")))?;
     parts(emitted, name)?;
     let mut totals = Totals::default();
     for (index, simulator) in simulators.iter().enumerate() {
@@ -173,7 +178,12 @@ fn everything(
         if !simulator.is_icarus() {
             simulator.lint(&emitted.directory)?;
         }
-        if index == 1 {
+        if name == "small" {
+            let images = rom_image::check(emitted, simulator)?;
+            println!("{name:<14} {:<18} {images:>9} wrong ROM images", simulator.name);
+        }
+        // Icarus ends at once where Verilator goes on to the end of the time step.
+        if index <= 1 {
             let waves = waves::compare(emitted, simulator)?;
             println!("{name:<14} waves (VCD, FST) {:>22} {:>13}", waves.edges, waves.values);
             totals.registers += waves.values;
@@ -185,6 +195,17 @@ fn everything(
         }
     }
     Ok(totals)
+}
+
+/// `make icarus`, `control` and `waves`, as they are typed.
+fn flows(emitted: &Emitted<'_>, name: &str, releases: &[Simulator]) -> Result<(), Failure> {
+    for release in releases {
+        let flow = release.flow(&emitted.directory);
+        flow.map_err(|Failure(text)| Failure(format!("{name}, {text}")))?;
+    }
+    let names: Vec<&str> = releases.iter().map(|release| release.name.as_str()).collect();
+    println!("{name:<14} make icarus, control, waves: {}", names.join(", "));
+    Ok(())
 }
 
 /// All vectors, once with and once without stalls, bubbles and resets.

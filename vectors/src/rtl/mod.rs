@@ -4,6 +4,7 @@ mod package;
 pub mod probes;
 mod project;
 pub mod register_log;
+mod save_file;
 mod testbench;
 
 use std::io::Write;
@@ -11,6 +12,7 @@ use std::io::Write;
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
+pub use hw_model::rtl::{PACKAGE, TESTBENCH};
 use hw_model::rtl::{SOURCES, TOP};
 
 use crate::bundle::{Bundle, BundleError};
@@ -19,14 +21,16 @@ use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
 pub use package::{package, rounding_number};
 pub use project::core_name;
+pub use save_file::{Names, save_file};
 pub use testbench::testbench;
 
 use probes::StageWord;
 
-/// The name of the package.
-pub const PACKAGE: &str = "blysk_pkg.sv";
-/// The name of the testbench.
-pub const TESTBENCH: &str = "blysk_tb.sv";
+/// What `make waves` writes; the scope of the pipeline in it.
+const WAVES: &str = "waves.vcd";
+const SCOPE: &str = "blysk_tb.dut";
+/// What GTKWave shows of it.
+pub const SAVE_FILE: &str = "waves.gtkw";
 /// Every computed register of every vector, for the testbench.
 pub const STAGES: &str = "stages.mem";
 /// The exponent of each ROM word, as the bits of an IEEE double, for messages of the testbench.
@@ -56,7 +60,7 @@ impl Sources<'_> {
 }
 
 /// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
-/// Makefile and FuseSoC core file.
+/// Makefile, FuseSoC core file, and what GTKWave shows.
 ///
 /// # Errors
 /// When a file cannot be written.
@@ -81,6 +85,8 @@ pub fn stage(
     set.write(TESTBENCH, testbench(&sources))?;
     set.write("Makefile", project::makefile(&sources))?;
     set.write("blysk.core", project::core_file(&sources))?;
+    let names = if sources.is_own() { Names::Rtl } else { Names::Ports };
+    set.write(SAVE_FILE, save_file(design.datapath(), names, SCOPE, Some(WAVES)))?;
     stage_words(bundle, command, set)?;
     set.write(EXPONENTS, exponents(design, command))?;
     bundle.stage(set)

@@ -1,6 +1,40 @@
-//! Where each register of the model is in the RTL.
+//! What ports and registers are called: in traces, in waves, and in the RTL. `docs/FILES.md` has the table.
 
 use hw_model::datapath::{Datapath, Register};
+use hw_model::format::QFormat;
+
+/// A port of the pipeline.
+#[derive(Debug, Clone, Copy)]
+pub struct Port {
+    /// Its name in RTL and waves.
+    pub name: &'static str,
+    /// Its column in traces; the clock has none.
+    pub column: Option<&'static str>,
+    /// Its format.
+    pub format: QFormat,
+}
+
+/// The ports, the clock first, in the order of traces.
+#[must_use]
+pub fn ports(datapath: &Datapath) -> [Port; 10] {
+    let formats = datapath.formats();
+    let flag = QFormat::field(1);
+    let address = QFormat::field(datapath.rom().address_width());
+    let status = QFormat::field(datapath.status_width());
+    [
+        ("clk_i", None, flag),
+        ("rst_i", Some("rst"), flag),
+        ("in_valid_i", Some("in_valid"), flag),
+        ("in_ready_o", Some("in_ready"), flag),
+        ("address_i", Some("address"), address),
+        ("x_i", Some("x"), formats.input),
+        ("out_valid_o", Some("out_valid"), flag),
+        ("out_ready_i", Some("out_ready"), flag),
+        ("intensity_o", Some("intensity"), formats.output),
+        ("status_o", Some("status"), status),
+    ]
+    .map(|(name, column, format)| Port { name, column, format })
+}
 
 /// A register of the model with its place in the RTL.
 #[derive(Debug, Clone)]
@@ -11,6 +45,8 @@ pub struct Probe {
     pub name: String,
     /// The model's register.
     pub register: Register,
+    /// What it is called in waves, in the scope of its rank: `stage1.t1_q`.
+    pub wave: String,
     /// What it is called in the RTL, below the top module: `polynomial.stage1.t_q`. In a rank where
     /// the model keeps a field apart that the RTL keeps in a wider register, a wire that shows it.
     pub path: String,
@@ -23,17 +59,27 @@ pub fn probes(datapath: &Datapath) -> Vec<Probe> {
     for rank in 0..datapath.rank_count() {
         for register in datapath.registers(rank) {
             let name = datapath.register_name(rank, &register);
+            let wave = format!("{}.{}_q", datapath.rank_name(rank), register.name);
             let path = path(datapath, rank, register.name);
-            probes.push(Probe { rank, name, register, path });
+            probes.push(Probe { rank, name, register, wave, path });
         }
     }
     probes
 }
 
-/// The valid flag of a rank.
+/// The valid flags in the RTL: that of rank 0 is bit 0.
+pub const VALID_FLAGS: &str = "handshake.valid_q";
+
+/// The valid flag of a rank in the RTL.
 #[must_use]
 pub fn valid_path(rank: usize) -> String {
-    format!("handshake.valid_q[{rank}]")
+    format!("{VALID_FLAGS}[{rank}]")
+}
+
+/// The valid flag of a rank in waves, which have them one by one too.
+#[must_use]
+pub fn valid_wave(datapath: &Datapath, rank: usize) -> String {
+    format!("{}.valid_q", datapath.rank_name(rank))
 }
 
 /// Ranks before the first multiply-add stage.
