@@ -10,6 +10,7 @@ mod places;
 mod scenes;
 mod searches;
 mod stimulus;
+mod text;
 
 use blysk_tests::cli::SMALL;
 
