@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use sim::scene::{MeshError, Normals, Triangle, Vector, triangles};
+use sim::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
 
 fn flat(text: &str) -> Vec<Triangle> {
     triangles(text, Normals::Flat).unwrap_or_else(|error| panic!("{text}{error}"))
@@ -307,6 +307,30 @@ fn what_is_wrong_has_its_line() {
     }
 }
 
+const SCENE: &str = r#"{
+  "name": "probe",
+  "image": {"width": 96, "height": 72},
+  "camera": {"position": [0, 0, 6], "look_at": [0, 0, 0], "field_of_view_degrees": 40},
+  "lights": [{"directional": {"towards": [0.3, 0.4, 0.9], "colour": [1, 1, 1]}}],
+  "materials": [{"name": "m", "exponent": 8, "diffuse": [0.2, 0.2, 0.2], "specular": [1, 1, 1]}],
+  "geometry": [{"mesh": {"file": "m.obj", "material": "m"}}]
+}
+"#;
+
+#[test]
+fn a_decimal_comma_in_a_scene_is_named() {
+    for (from, to, said) in [
+        ("\"exponent\": 8", "\"exponent\": 8,5", "line 6 column"),
+        ("_degrees\": 40", "_degrees\": 40,25", "line 4 column"),
+    ] {
+        let text = SCENE.replacen(from, to, 1);
+        let error = Scene::from_json(&text, &mut |_| Ok(MESH.to_owned())).unwrap_err().to_string();
+        let (_, number) = to.split_once(": ").unwrap();
+        let right = format!("`{number}` a decimal comma? write {}", number.replace(',', "."));
+        assert!(error.contains(said) && error.contains(&right), "{error}");
+    }
+}
+
 /// Read, or refused with a line that the file has.
 fn read_or_refused(text: &str) -> Result<(), TestCaseError> {
     for normals in [Normals::Flat, Normals::Smooth] {
@@ -342,6 +366,28 @@ proptest! {
             }
         }
         read_or_refused(&String::from_utf8_lossy(&bytes))?;
+    }
+
+    #[test]
+    fn altered_scenes_are_read_or_refused(
+        edits in prop::collection::vec((0_usize..1000, any::<char>(), 0..4), 1..6),
+    ) {
+        let mut text: Vec<char> = SCENE.chars().collect();
+        for (place, other, how) in edits {
+            let place = place % text.len();
+            match how {
+                0 => text[place] = other,
+                1 => text.insert(place, other),
+                2 => drop(text.remove(place)),
+                _ => text.insert(place, ['0', '5', ',', '-', '"', '{', '}', '['][other as usize % 8]),
+            }
+        }
+        let read = |_: &str| Ok(MESH.to_owned());
+        let text: String = text.into_iter().collect();
+        if let Err(error) = Scene::from_json(&text, &mut { read }) {
+            let said = error.to_string();
+            prop_assert!(said.contains("line ") || said.starts_with("at `"), "{}", said);
+        }
     }
 
     /// Places on a small grid: edges cross, touch and overlap, corners repeat. Whatever is cut is cut rightly.

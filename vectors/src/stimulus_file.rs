@@ -72,7 +72,7 @@ pub enum StimulusError {
     /// There is no cycle.
     #[error(
         "{} has no cycles{}; write a line for each clock cycle below the column names", path.display(),
-        if *nothing { ": it is empty" } else { "" }
+        if *nothing { ": it is empty, or has comments only" } else { "" }
     )]
     Empty {
         /// The file.

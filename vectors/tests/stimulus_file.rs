@@ -88,8 +88,8 @@ fn a_wrong_field_is_named_with_its_line() {
 #[test]
 fn a_wrong_file_is_named() {
     for (text, wanted) in [
-        ("", "in.csv has no cycles: it is empty; write a line"),
-        ("\u{feff}", "in.csv has no cycles: it is empty; write a line"),
+        ("", "in.csv has no cycles: it is empty, or has comments only; write a line"),
+        ("\u{feff}", "in.csv has no cycles: it is empty, or has comments only; write a line"),
         ("n,x\n", "in.csv has no cycles"),
         ("# only a comment\n", "in.csv has no cycles"),
         ("n\n1\n", "in.csv:1: the column `x` is missing"),

@@ -68,7 +68,10 @@ fn devices_and_streams_without_end_are_refused() {
     for (command, _) in readers(&bench) {
         let command = command.replace(" file", " /dev/zero");
         if command.ends_with("mesh.json") {
-            bench.write("mesh.json", bench.text("mesh.json").replace("\"file\"", "\"/dev/zero\""));
+            bench.write(
+                "mesh.json",
+                bench.text("mesh.json").replace(": \"file\"", ": \"/dev/zero\""),
+            );
         }
         limited(&bench, &command, "/dev/zero", &["/dev/zero:1:", "byte of 0"]);
     }

@@ -9,8 +9,7 @@
 //! | `surf`, the old patches and `call` | refused: leaving them out would leave a hole |
 //! | anything else | passed over: names, groups, materials, lines, points, curves |
 //!
-//! The reader is our own because the loaders there are (`tobj`, `obj`, `wavefront_obj`) split normals at groups, refuse
-//! what they would not use, and name no lines.
+//! The reader is our own: docs/DEPENDENCIES.md says what the loaders that there are would do.
 
 mod statements;
 
