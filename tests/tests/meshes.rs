@@ -189,7 +189,7 @@ fn star(count: u32, inner: f64) -> Vec<Vector> {
     let corner = |index: u32| {
         let (sine, cosine) =
             (f64::from(index) * std::f64::consts::TAU / f64::from(count)).sin_cos();
-        let radius = if index % 2 == 0 { 1.0 } else { inner };
+        let radius = if index.is_multiple_of(2) { 1.0 } else { inner };
         Vector::new(radius * cosine, radius * sine, 0.0)
     };
     (0..count).map(corner).collect()

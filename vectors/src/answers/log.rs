@@ -55,7 +55,8 @@ impl Log {
         let line = header.as_ref().map_or(1, |header| header.line);
         let names = header.map_or_else(Vec::new, |header| header.fields);
         let (index, columns) = places(&names, known).map_err(|problem| {
-            let empty = if names.is_empty() { "the file is empty, or has comments only: " } else { "" };
+            let empty =
+                if names.is_empty() { "the file is empty, or has comments only: " } else { "" };
             AnswersError::Line { path: path.to_owned(), line, problem: format!("{empty}{problem}") }
         })?;
         let (path, lines) = (path.to_owned(), vec![0; count]);
