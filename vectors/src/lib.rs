@@ -4,7 +4,8 @@
 //! model's answers and writes the files; [`verify()`] reads them back, and [`check()`] judges by them
 //! what somebody else's hardware answered. Text formats of Verilog are known in this crate only.
 //!
-//! Everything written goes through [`whole_file`]: files appear whole, or not at all.
+//! Everything written goes through [`whole_file`]: files appear whole, or not at all. Everything read comes through
+//! [`text_file`].
 //!
 //! The errors say all they know in their message; what the system said is their `cause` and not
 //! their `source()`, so that whoever prints a chain of errors does not say it twice.
@@ -20,11 +21,13 @@ pub mod manifest;
 pub mod memory_file;
 pub mod negative_control;
 pub mod packing;
+mod records;
 pub mod reference;
 pub mod rtl;
 pub mod stimulus;
 pub mod stimulus_file;
 pub mod table;
+pub mod text_file;
 pub mod verify;
 pub mod whole_file;
 

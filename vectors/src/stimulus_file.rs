@@ -14,8 +14,7 @@
 //! `valid` is 0, `n` and `x` may be empty. x need not lie in [0, 1], but the format must hold it. An
 //! exponent without a ROM word is no mistake: the hardware answers it with 0 and a status flag.
 
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use hw_model::format::{Overflow, QFormat};
@@ -25,6 +24,8 @@ use hw_model::rounding::Rounding;
 use thiserror::Error;
 
 use crate::case::Case;
+use crate::records::{Record, RecordError, Records};
+use crate::text_file::{self, STIMULUS, TextError, TextReader};
 
 /// What one clock cycle puts on the pipeline's input ports.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,45 +44,18 @@ pub struct Cycle {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StimulusError {
-    /// The file cannot be read.
-    #[error("cannot read {}: {cause}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        cause: io::Error,
-    },
-    /// A line is not text.
-    #[error("{}:{line}: the line is not UTF-8; write the file as plain text", path.display())]
-    NotText {
-        /// The file.
-        path: PathBuf,
-        /// The line, counted from 1.
-        line: u64,
-    },
-    /// The line of column names.
+    /// The file cannot be read, or is no text.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// A line, or the line of column names.
     #[error("{}:{line}: {problem}", path.display())]
-    Header {
+    Line {
         /// The file.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
         /// What is wrong, and what would be right.
         problem: String,
-    },
-    /// A line has too few or too many fields.
-    #[error(
-        "{}:{line}: there are {found} fields, the first line names {expected} columns", path.display()
-    )]
-    Fields {
-        /// The file.
-        path: PathBuf,
-        /// The line, counted from 1.
-        line: u64,
-        /// Fields found.
-        found: usize,
-        /// Columns named.
-        expected: usize,
     },
     /// A field.
     #[error("{}:{line}: field `{field}`: {problem}", path.display())]
@@ -96,19 +70,27 @@ pub enum StimulusError {
         problem: String,
     },
     /// There is no cycle.
-    #[error("{} has no cycles; write a line for each clock cycle below the column names", .0.display())]
-    Empty(PathBuf),
+    #[error(
+        "{} has no cycles{}; write a line for each clock cycle below the column names", path.display(),
+        if *nothing { ": it is empty, or has comments only" } else { "" }
+    )]
+    Empty {
+        /// The file.
+        path: PathBuf,
+        /// Not even the line of column names is there.
+        nothing: bool,
+    },
 }
+
+/// The most clock cycles of a file: they take 700 MB.
+const MOST_CYCLES: usize = 1 << 24;
 
 /// Reads the stimulus file at `path`; `rom` gives the addresses, `input` is the format of x.
 ///
 /// # Errors
 /// Names the file, the line and the field, what is wrong and what would be right.
 pub fn read_stimulus(path: &Path, rom: &Rom, input: QFormat) -> Result<Vec<Cycle>, StimulusError> {
-    match File::open(path) {
-        Ok(file) => parse_stimulus(file, path, rom, input),
-        Err(cause) => Err(StimulusError::Io { path: path.to_owned(), cause }),
-    }
+    parse(text_file::open(path, STIMULUS)?, path, rom, input)
 }
 
 /// Reads a stimulus file from anywhere; `path` is for messages.
@@ -121,53 +103,43 @@ pub fn parse_stimulus(
     rom: &Rom,
     input: QFormat,
 ) -> Result<Vec<Cycle>, StimulusError> {
-    let mut columns: Option<Columns> = None;
+    parse(TextReader::new(from, STIMULUS), path, rom, input)
+}
+
+fn parse(
+    from: TextReader<impl Read>,
+    path: &Path,
+    rom: &Rom,
+    input: QFormat,
+) -> Result<Vec<Cycle>, StimulusError> {
+    let in_line = |line, problem| StimulusError::Line { path: path.to_owned(), line, problem };
+    let refused = |error| match error {
+        RecordError::Text(problem) => TextError::new(path, &STIMULUS, problem).into(),
+        RecordError::Line { line, problem } => in_line(line, problem),
+    };
+    let mut records = Records::new(from);
+    let Some(Record { line, fields }) = records.next_record().map_err(refused)? else {
+        return Err(StimulusError::Empty { path: path.to_owned(), nothing: true });
+    };
+    let columns = Columns::find(&fields).map_err(|problem| in_line(line, problem))?;
     let mut cycles = Vec::new();
-    for (line, text) in (1..).zip(BufReader::new(from).lines()) {
-        let text = text.map_err(|cause| unreadable(path, line, cause))?;
-        let text = text.trim_start_matches(BYTE_ORDER_MARK).trim();
-        if text.is_empty() || text.starts_with('#') {
-            continue;
-        }
-        let fields: Vec<&str> = text.split(',').map(unquoted).collect();
-        let path = || path.to_owned();
-        let Some(columns) = &columns else {
-            let found = Columns::find(&fields);
-            let header = |problem| StimulusError::Header { path: path(), line, problem };
-            columns = Some(found.map_err(header)?);
-            continue;
-        };
-        if fields.len() != columns.count {
-            let (found, expected) = (fields.len(), columns.count);
-            return Err(StimulusError::Fields { path: path(), line, found, expected });
+    while let Some(Record { line, fields }) = records.next_record().map_err(refused)? {
+        if cycles.len() == MOST_CYCLES {
+            let problem = format!("there are more than {MOST_CYCLES} cycles; make several runs");
+            return Err(in_line(line, problem));
         }
         let cycle = columns.cycle(&fields, rom, input);
         cycles.push(cycle.map_err(|Wrong { field, problem }| StimulusError::Field {
-            path: path(),
+            path: path.to_owned(),
             line,
             field,
             problem,
         })?);
     }
-    if cycles.is_empty() { Err(StimulusError::Empty(path.to_owned())) } else { Ok(cycles) }
-}
-
-/// What some editors put in front of the first line.
-const BYTE_ORDER_MARK: char = '\u{feff}';
-
-fn unreadable(path: &Path, line: u64, cause: io::Error) -> StimulusError {
-    let path = path.to_owned();
-    match cause.kind() {
-        io::ErrorKind::InvalidData => StimulusError::NotText { path, line },
-        _ => StimulusError::Io { path, cause },
+    if cycles.is_empty() {
+        return Err(StimulusError::Empty { path: path.to_owned(), nothing: false });
     }
-}
-
-/// A field without the space around it, or the quotes that some programs put around every field.
-fn unquoted(field: &str) -> &str {
-    let field = field.trim();
-    let inner = field.strip_prefix('"').and_then(|field| field.strip_suffix('"'));
-    inner.unwrap_or(field)
+    Ok(cycles)
 }
 
 /// A field that cannot be used.
@@ -178,7 +150,6 @@ struct Wrong {
 
 #[derive(Debug, Default)]
 struct Columns {
-    count: usize,
     n: usize,
     x: usize,
     /// True when the column of x holds bits.
@@ -193,7 +164,7 @@ const KNOWN: &str = "the columns are n, x (or x_bits), valid, ready, reset";
 impl Columns {
     fn find(header: &[&str]) -> Result<Self, String> {
         let (mut n, mut x, mut x_bits) = (None, None, None);
-        let mut columns = Self { count: header.len(), ..Self::default() };
+        let mut columns = Self::default();
         for (place, &name) in header.iter().enumerate() {
             let column = match name {
                 "n" => &mut n,

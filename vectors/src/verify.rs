@@ -1,7 +1,7 @@
 //! Reading a bundle back, and checking that it is the one that was written.
 
-use std::fs::{self, File};
-use std::io;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use dashu_int::UBig;
@@ -13,6 +13,7 @@ use crate::manifest::{
 };
 use crate::memory_file::{MemoryError, read_words};
 use crate::table::{TableError, TableRow, read_table};
+use crate::text_file::{self, TextProblem};
 
 /// Why a bundle is refused.
 #[derive(Debug, Error)]
@@ -23,8 +24,8 @@ pub enum VerifyError {
     Io {
         /// The file.
         path: PathBuf,
-        /// What the system said.
-        cause: io::Error,
+        /// What is wrong.
+        cause: TextProblem,
     },
     /// The manifest is not one.
     #[error("{} is not a manifest: {cause}", path.display())]
@@ -62,6 +63,17 @@ pub enum VerifyError {
         found: String,
         /// The manifest's.
         expected: String,
+    },
+    /// A file goes on where the one that was written ends.
+    #[error(
+        "{} is not the file that was written: it is longer than {expected} bytes, which the manifest says; \
+         write the bundle again", path.display()
+    )]
+    Long {
+        /// The file.
+        path: PathBuf,
+        /// Its bytes by the manifest.
+        expected: u64,
     },
     /// A memory file.
     #[error(transparent)]
@@ -195,7 +207,7 @@ fn check_control(
 
 fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
     let path = directory.join(MANIFEST);
-    let text = match fs::read_to_string(&path) {
+    let text = match text_file::text(&path, text_file::MANIFEST) {
         Ok(text) => text,
         Err(cause) => return Err(VerifyError::Io { path, cause }),
     };
@@ -224,8 +236,13 @@ fn check_file(
     let Some(expected) = manifest.files.get(name) else {
         return Err(VerifyError::NotListed { path: directory.join(MANIFEST), name });
     };
-    match File::open(&path).and_then(checksum) {
-        Err(cause) => Err(VerifyError::Io { path, cause }),
+    // A byte more is enough to see that it is another file, were it one without end.
+    let beyond = expected.bytes.saturating_add(1);
+    match File::open(&path).and_then(|file| checksum(file.take(beyond))) {
+        Err(cause) => Err(VerifyError::Io { path, cause: cause.into() }),
+        Ok(found) if found.bytes == beyond => {
+            Err(VerifyError::Long { path, expected: expected.bytes })
+        }
         Ok(found) if found != *expected => Err(VerifyError::Checksum {
             path,
             found: found.sha256,

@@ -105,5 +105,5 @@ fn wrong_lines_are_named() {
     assert_eq!(problem("@ff 0", 8, 2), (1, LineProblem::PastEnd { address: 255, depth: 2 }));
     assert!(matches!(read("0\n@2 1", 8, 3), Err(MemoryError::Short { address: 1, found: 2, .. })));
     let error = read_words(Path::new("no/such.mem"), 8, 1).unwrap_err().to_string();
-    assert!(error.starts_with("cannot read no/such.mem: "), "{error}");
+    assert!(error.starts_with("cannot read the memory file no/such.mem: "), "{error}");
 }

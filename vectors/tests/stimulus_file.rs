@@ -88,7 +88,8 @@ fn a_wrong_field_is_named_with_its_line() {
 #[test]
 fn a_wrong_file_is_named() {
     for (text, wanted) in [
-        ("", "in.csv has no cycles"),
+        ("", "in.csv has no cycles: it is empty, or has comments only; write a line"),
+        ("\u{feff}", "in.csv has no cycles: it is empty, or has comments only; write a line"),
         ("n,x\n", "in.csv has no cycles"),
         ("# only a comment\n", "in.csv has no cycles"),
         ("n\n1\n", "in.csv:1: the column `x` is missing"),
@@ -103,7 +104,79 @@ fn a_wrong_file_is_named() {
         assert!(message.starts_with(wanted), "{text:?}: {message}");
     }
     let message = parse(b"n,x\n1,\xff\n").unwrap_err().to_string();
-    assert!(message.starts_with("in.csv:2: the line is not UTF-8"), "{message}");
+    assert!(
+        message.starts_with("in.csv:2: the line is not UTF-8: its byte 3 is 0xff"),
+        "{message}"
+    );
     let cycles = parse("\u{feff}\"n\",\"x\"\r\n\"2\",\"0.5\"\r\n").unwrap();
     assert_eq!((cycles[0].case.address, cycles[0].case.x), (1, 128));
+}
+
+/// Tables of other countries: the separator and the comma of numbers are named, with what would be right.
+#[test]
+fn other_separators_and_decimal_commas_are_named() {
+    for (text, wanted) in [
+        ("n;x\n1;0,5\n", "in.csv:1: the fields are separated by `;`; separate them by `,`"),
+        ("# c\n\"n\";\"x\"\n", "in.csv:2: the fields are separated by `;`"),
+        ("n\tx\n1\t0.5\n", "in.csv:1: the fields are separated by tabs"),
+        ("n|x\n", "in.csv:1: the fields are separated by `|`"),
+        ("sep=;\nn;x\n", "in.csv:1: `sep=` is no column"),
+        (
+            "n,x\n1;0.5\n",
+            "in.csv:2: there are 1 fields, the first line names 2 columns: the fields",
+        ),
+        (
+            "n,x\n1,0,5\n",
+            "in.csv:2: there are 3 fields, the first line names 2 columns: is `0,5` a decimal comma? write 0.5",
+        ),
+        (
+            "n,x\n64,\"0,75\"\n",
+            "in.csv:2: there are 3 fields, the first line names 2 columns: is `0,75`",
+        ),
+        (
+            "n,x\n1,-0,5\n",
+            "in.csv:2: there are 3 fields, the first line names 2 columns: is `-0,5`",
+        ),
+    ] {
+        let message = parse(text).unwrap_err().to_string();
+        assert!(message.starts_with(wanted), "{text:?}: {message}");
+    }
+}
+
+#[test]
+fn line_ends_quotes_and_marks_do_not_count() {
+    let wanted = parse("n,x\n2,0.5\n3.5,1\n").unwrap();
+    for text in [
+        "n,x\r\n2,0.5\r\n3.5,1",
+        "n,x\r2,0.5\r3.5,1\r",
+        "\u{feff}n,x\n2,0.5\n\u{feff}3.5,1\n",
+        " \"n\" ,\t\" x \"\n  # c\n \"2\", \"0.5\"\n   \n3.5,1\n",
+    ] {
+        assert_eq!(parse(text).unwrap(), wanted, "{text:?}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn bytes_are_read_or_refused(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        let _read = parse(bytes);
+    }
+
+    /// One byte of a good file replaced, left out or put in.
+    #[test]
+    fn altered_files_are_read_or_refused(place in 0_usize..40, byte in any::<u8>(), how in 0..3) {
+        let mut bytes = b"n,x,valid\n2,0.5,1\n# c\n3.5,-0.25,1\n".to_vec();
+        let place = place % bytes.len();
+        match how {
+            0 => bytes[place] = byte,
+            1 => drop(bytes.remove(place)),
+            _ => bytes.insert(place, byte),
+        }
+        let line = bytes.iter().filter(|&&byte| byte == b'\n' || byte == b'\r').count() + 1;
+        if let Err(error) = parse(bytes) {
+            let said = error.to_string();
+            let named = (1..=line).any(|line| said.starts_with(&format!("in.csv:{line}: ")));
+            prop_assert!(named || said.contains("UTF-16"), "{}", said);
+        }
+    }
 }

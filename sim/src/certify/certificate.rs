@@ -1,6 +1,7 @@
 //! The certificate: a claim with everything that is needed to check it, sealed, as JSON.
 //!
-//! A certificate has one way to be written. Reading compares the text with that, byte for byte, so that
+//! A certificate has one way to be written. Reading compares the text with that, byte for byte (a mark and
+//! CRLF are gone by then), so that
 //! no digit can be another one, not even one that an f64 does not show.
 
 use hw_model::fit::Method;

@@ -1,7 +1,6 @@
 //! `blysk check`: what a designer's own simulation answered, against the vectors it was given.
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -11,6 +10,7 @@ use hw_model::design::Design;
 use hw_model::quantise::decimal;
 use vectors::answers::{Failure, Field, Got};
 use vectors::table::hex;
+use vectors::text_file::{self, REGISTER_LOG, TextReader};
 use vectors::{Verdict, check, verify};
 
 use super::{Out, Outcome};
@@ -53,10 +53,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 fn check_registers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = Design::new(verify(vectors)?.manifest.configuration)?;
     let compared = if log == Path::new("-") {
-        compare(design.datapath(), io::stdin().lock())
+        compare(design.datapath(), TextReader::new(io::stdin().lock(), REGISTER_LOG))
     } else {
-        let file = File::open(log).with_context(|| format!("cannot read {}", log.display()))?;
-        compare(design.datapath(), BufReader::new(file))
+        compare(design.datapath(), text_file::open(log, REGISTER_LOG)?)
     };
     match compared {
         Ok(agreement) => {

@@ -1,14 +1,14 @@
 //! `--preset NAME` and `--config FILE`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use hw_model::config::{Config, ConfigError};
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::presets;
+use vectors::text_file::{self, CONFIGURATION, decimal_comma};
 
 /// Which configuration.
 #[derive(Args)]
@@ -86,11 +86,17 @@ impl Configuration {
 /// The configuration in a file.
 pub(super) fn load_config(path: &Path) -> anyhow::Result<Config> {
     let shown = path.display();
-    let text = fs::read_to_string(path)
-        .with_context(|| format!("cannot read the configuration {shown}"))?;
+    let text = text_file::read(path, CONFIGURATION)?;
     Config::from_json(&text).map_err(|error| {
         let place = place(&error, &text).map_or_else(String::new, |text| format!(", at `{text}`"));
-        anyhow::Error::from(error).context(format!("{shown}{place}"))
+        let hint = match &error {
+            ConfigError::Json(error) => decimal_comma(&text, error),
+            _ => None,
+        };
+        match hint {
+            Some(hint) => anyhow!("{shown}{place}: {error}{hint}"),
+            None => anyhow::Error::from(error).context(format!("{shown}{place}")),
+        }
     })
 }
 

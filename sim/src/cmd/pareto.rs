@@ -1,13 +1,13 @@
 //! `blysk pareto`: work against precision.
 
-use std::fs;
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
+use vectors::text_file::{self, PARETO_TABLE, SYNTHESIS_TABLE, foreign_separator};
 use vectors::whole_file::OutputSet;
 
 use super::pareto_tables as tables;
@@ -127,21 +127,31 @@ fn written(directory: &Path, names: Vec<String>, out: &mut Out) -> anyhow::Resul
 fn synthesised(args: &Args) -> anyhow::Result<(Vec<Synthesis>, String)> {
     let path = args.synth.clone().unwrap_or_else(|| PathBuf::from(SYNTH));
     let shown = path.display();
-    let text = match fs::read_to_string(&path) {
+    let text = match text_file::read(&path, SYNTHESIS_TABLE) {
         Ok(text) => text,
-        Err(error) if args.synth.is_none() && error.kind() == ErrorKind::NotFound => {
+        Err(error) if args.synth.is_none() && error.is_missing() => {
             let said = format!("no synthesis results: there is no {SYNTH} (`make synth` makes it)");
             return Ok((Vec::new(), said));
         }
-        Err(error) => return Err(error).with_context(|| format!("cannot read {shown}")),
+        Err(error) => return Err(error.into()),
     };
+    refuse_foreign(&text, &path)?;
     let rows = synthesis::read(&text).with_context(|| shown.to_string())?;
     Ok((rows, format!("synthesis results: {shown}")))
 }
 
+/// A table that a spreadsheet of another country has written.
+fn refuse_foreign(text: &str, path: &Path) -> anyhow::Result<()> {
+    match text.lines().next().and_then(foreign_separator) {
+        Some(problem) => bail!("{}:1: {problem}", path.display()),
+        None => Ok(()),
+    }
+}
+
 fn check(path: &Path, inputs: &Inputs, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
-    let text = fs::read_to_string(path).with_context(|| format!("cannot read {shown}"))?;
+    let text = text_file::read(path, PARETO_TABLE)?;
+    refuse_foreign(&text, path)?;
     let kept = files::read(&text).with_context(|| shown.to_string())?;
     if kept.is_empty() {
         bail!("{shown} has no contender");

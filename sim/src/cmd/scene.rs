@@ -1,10 +1,11 @@
 //! `blysk scene`: look at a scene without rendering it, and the schema of scenes.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
+use vectors::text_file::{self, MESH, SCENE};
 
 use super::table::{Cell, Format, Rows, write_folded};
 use super::{Out, Outcome};
@@ -77,29 +78,13 @@ pub(super) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The greatest scene or mesh file that is read: more is a mistake, or would not fit the memory.
-const MOST_BYTES: u64 = 1 << 30;
-
 /// Reads a scene. Paths of meshes start at its directory.
 pub(super) fn load(path: &Path) -> anyhow::Result<Scene> {
     let shown = path.display();
-    let text = text(path).with_context(|| format!("cannot read the scene {shown}"))?;
+    let text = text_file::read(path, SCENE)?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    Scene::from_json(&text, &mut |file| text_of_mesh(directory, file))
-        .with_context(|| shown.to_string())
-}
-
-fn text_of_mesh(directory: &Path, file: &str) -> io::Result<String> {
-    text(&directory.join(file))
-}
-
-fn text(path: &Path) -> io::Result<String> {
-    let size = std::fs::metadata(path)?.len();
-    if size > MOST_BYTES {
-        let said = format!("{size} bytes are more than the {MOST_BYTES} that are read");
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, said));
-    }
-    std::fs::read_to_string(path)
+    let mesh = |file: &str| Ok(text_file::text(&directory.join(file), MESH)?);
+    Scene::from_json(&text, &mut { mesh }).with_context(|| shown.to_string())
 }
 
 /// A size as `--size` has it: `1920x1080`.

@@ -1,14 +1,14 @@
 //! `blysk specialise`: hardware for one scene, with a certificate.
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::rtl::TOP;
+use vectors::text_file::{self, CERTIFICATE};
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
 use super::configuration::MaybeConfiguration;
@@ -281,8 +281,7 @@ fn hardware(design: &Design, args: &Args, directory: &Path) -> anyhow::Result<()
 
 fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
-    let text =
-        fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
+    let text = text_file::read(path, CERTIFICATE)?;
     let bar = Bar::new(None);
     let held = Certificate::from_json(&text).and_then(|certificate| {
         certificate.check(&bar)?;

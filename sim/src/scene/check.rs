@@ -8,7 +8,7 @@ use hw_model::names;
 
 use super::description::{self as said, Description, Geometry, Triple};
 use super::error::{MeshError, SceneError};
-use super::lines::GREATEST_COORDINATE;
+use super::obj::{GREATEST_COORDINATE, MOST_TRIANGLES};
 use super::vector::Vector;
 use super::{Light, Material, Origin, Scene, Shape, Surface, View, mesh};
 
@@ -190,6 +190,12 @@ fn surfaces(
                 let triangles = mesh_surfaces(&path, file, read)?;
                 let triangles = triangles.into_iter().map(Shape::Triangle);
                 surfaces.extend(triangles.map(|shape| Surface { shape, material }));
+                if surfaces.len() > MOST_TRIANGLES {
+                    let problem = format!(
+                        "there are more than {MOST_TRIANGLES} triangles; use a coarser mesh"
+                    );
+                    return wrong(format!("{path}.file"), problem);
+                }
             }
         }
     }
@@ -205,7 +211,7 @@ fn mesh_surfaces(
     let scale = size(&format!("{path}.scale"), file.scale)?;
     let refused =
         |source| SceneError::Mesh { path: format!("{path}.file"), file: file.file.clone(), source };
-    let text = read(&file.file).map_err(|error| refused(MeshError::Read(error)))?;
+    let text = read(&file.file).map_err(|error| refused(MeshError::Read(error.into())))?;
     let mut triangles = mesh::triangles(&text, file.normals).map_err(refused)?;
     for triangle in &mut triangles {
         triangle.corners = triangle.corners.map(|corner| corner * scale + position);

@@ -3,18 +3,21 @@
 use std::io;
 
 use thiserror::Error;
+use vectors::text_file::TextProblem;
 
 /// Why a scene is refused.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// Not JSON, an unknown or missing field, or a value of the wrong kind.
-    #[error("{}{source}", at(path))]
+    #[error("{}{source}{hint}", at(path))]
     Json {
         /// The way to the value: `geometry[2].sphere`. Empty for the whole.
         path: String,
         /// What is wrong, with line and column.
         source: serde_json::Error,
+        /// What would be right, where it is known.
+        hint: String,
     },
     /// A value that cannot be used.
     #[error("at `{path}`: {problem}")]
@@ -41,8 +44,8 @@ pub enum SceneError {
 #[non_exhaustive]
 pub enum MeshError {
     /// The file cannot be read.
-    #[error(" cannot be read: {0}; paths start at the scene's directory")]
-    Read(io::Error),
+    #[error("{}{}", .0.after_name(), where_paths_start(.0))]
+    Read(TextProblem),
     /// A line of it.
     #[error(":{line}: {problem}")]
     Line {
@@ -51,22 +54,17 @@ pub enum MeshError {
         /// What is wrong, and what would be right.
         problem: String,
     },
-    /// All of it.
-    #[error(": {0}")]
-    Whole(String),
 }
 
 fn at(path: &str) -> String {
     if path.is_empty() { String::new() } else { format!("at `{path}`: ") }
 }
 
-impl MeshError {
-    /// With a line where one is known.
-    pub(super) fn at(line: Option<usize>, problem: impl Into<String>) -> Self {
-        let problem = problem.into();
-        match line {
-            Some(line) => Self::Line { line, problem },
-            None => Self::Whole(problem),
+fn where_paths_start(problem: &TextProblem) -> &'static str {
+    match problem {
+        TextProblem::Io(error) if error.kind() == io::ErrorKind::NotFound => {
+            "; paths start at the scene's directory"
         }
+        _ => "",
     }
 }

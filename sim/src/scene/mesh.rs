@@ -1,10 +1,9 @@
 //! Triangles of a Wavefront OBJ file, with a normal at every corner.
 
-use tobj::LoadOptions;
-
 use super::description::Normals;
 use super::error::MeshError;
-use super::lines::Lines;
+use super::obj::{Corner, Obj};
+use super::polygon::{self, plane_normal};
 use super::vector::Vector;
 
 /// A triangle: where it is, and the normals between which those of its inside are interpolated.
@@ -24,119 +23,78 @@ impl Triangle {
     }
 }
 
-fn plane_normal([a, b, c]: [Vector; 3]) -> Vector {
-    (b - a).cross(c - a)
+/// A triangle of a face.
+struct Piece {
+    /// The line of the face.
+    line: usize,
+    corners: [Corner; 3],
 }
 
-/// The corners and normals of a mesh, before they become triangles: indices into both lists.
-struct Faces {
-    positions: Vec<Vector>,
-    corners: Vec<[usize; 3]>,
-    /// With the file's own normals.
-    normals: Option<(Vec<Vector>, Vec<[usize; 3]>)>,
+/// The triangles of a mesh, before they have normals.
+struct Pieces<'a> {
+    obj: &'a Obj,
+    list: Vec<Piece>,
 }
 
-/// The triangles in the text of a Wavefront OBJ file; polygons become fans of triangles.
+/// The triangles in the text of a Wavefront OBJ file.
 ///
 /// # Errors
-/// When a line cannot be read, a number is not finite, a triangle has no area, a normal no direction, or there is
-/// no triangle at all; with the line.
+/// When a line cannot be read, a number is not finite, a face has no area or is no polygon, a normal no direction, or
+/// there is no face at all; with the line.
 pub fn triangles(text: &str, normals: Normals) -> Result<Vec<Triangle>, MeshError> {
-    let lines = Lines::of(text)?;
-    if lines.triangles.is_empty() {
-        return Err(MeshError::at(None, "has no face; give at least one line `f a b c`"));
+    let obj = Obj::read(text)?;
+    let pieces = Pieces::of(&obj)?;
+    match normals {
+        Normals::Flat => Ok(pieces.flat()),
+        Normals::Smooth => pieces.smooth(),
     }
-    let options = LoadOptions {
-        triangulate: true,
-        ignore_points: true,
-        ignore_lines: true,
-        ..LoadOptions::default()
-    };
-    // Materials come from the scene: whatever library the file names is not read.
-    let skip = |_: &std::path::Path| Err(tobj::LoadError::GenericFailure);
-    let (models, _) = tobj::load_obj_buf(&mut text.as_bytes(), &options, skip)
-        .map_err(|error| MeshError::at(None, error.to_string()))?;
-    let mut found = Vec::with_capacity(lines.triangles.len());
-    for model in &models {
-        let faces = Faces::of(&model.mesh, lines.have_normals());
-        let first = found.len();
-        let line = |index: usize| lines.triangles.get(first + index).copied();
-        faces.refuse_degenerate(line)?;
-        match normals {
-            Normals::Flat => found.extend(faces.flat()),
-            Normals::Smooth => found.extend(faces.smooth(line)?),
-        }
-    }
-    if found.len() != lines.triangles.len() {
-        return Err(MeshError::at(None, "has faces that are no polygons; write them as triangles"));
-    }
-    Ok(found)
 }
 
-fn threes<T: Copy, U>(list: &[T], of: impl Fn([T; 3]) -> U) -> Vec<U> {
-    list.as_chunks::<3>().0.iter().map(|&three| of(three)).collect()
-}
-
-impl Faces {
-    fn of(mesh: &tobj::Mesh, with_normals: bool) -> Self {
-        let indices = |list: &[u32]| threes(list, |three| three.map(|index| index as usize));
-        let normals = with_normals
-            .then(|| (threes(&mesh.normals, Vector::from), indices(&mesh.normal_indices)));
-        Self {
-            positions: threes(&mesh.positions, Vector::from),
-            corners: indices(&mesh.indices),
-            normals,
+impl<'a> Pieces<'a> {
+    fn of(obj: &'a Obj) -> Result<Self, MeshError> {
+        let mut list = Vec::with_capacity(obj.triangle_count());
+        let mut places = Vec::new();
+        for face in obj.faces() {
+            let line = face.line;
+            places.clear();
+            places.extend(face.corners.iter().map(|corner| obj.position(*corner)));
+            let triangles =
+                polygon::triangles(&places).map_err(|problem| MeshError::Line { line, problem })?;
+            let corner = |index: usize| face.corners.get(index).copied().unwrap_or_default();
+            list.extend(triangles.into_iter().map(|of| Piece { line, corners: of.map(corner) }));
         }
+        Ok(Self { obj, list })
     }
 
-    fn places(&self, corners: [usize; 3]) -> [Vector; 3] {
-        corners.map(|index| self.positions[index])
+    fn places(&self, piece: &Piece) -> [Vector; 3] {
+        piece.corners.map(|corner| self.obj.position(corner))
     }
 
-    /// A triangle without area has no plane and no normal. What is left of rounding counts as none: a height of less
-    /// than a part in 10¹² of the longest side.
-    fn refuse_degenerate(&self, line: impl Fn(usize) -> Option<usize>) -> Result<(), MeshError> {
-        const LEAST: f64 = 1e-12;
-        for (index, &corners) in self.corners.iter().enumerate() {
-            let places @ [a, b, c] = self.places(corners);
-            let longest = (b - a).length().max((c - b).length()).max((a - c).length());
-            let area = plane_normal(places).length();
-            if !(area > LEAST * longest * longest && area > f64::MIN_POSITIVE) {
-                let problem = "a triangle of this face has no area: its corners lie on one line; \
-                               move a corner or leave the face out";
-                return Err(MeshError::at(line(index), problem));
-            }
-        }
-        Ok(())
-    }
-
-    fn flat(&self) -> impl Iterator<Item = Triangle> {
-        self.corners.iter().map(|&corners| {
-            let corners = self.places(corners);
+    fn flat(&self) -> Vec<Triangle> {
+        let triangle = |piece| {
+            let corners = self.places(piece);
             let normal = plane_normal(corners).unit().unwrap_or_default();
             Triangle { corners, normals: [normal; 3] }
-        })
+        };
+        self.list.iter().map(triangle).collect()
     }
 
-    fn smooth(&self, line: impl Fn(usize) -> Option<usize>) -> Result<Vec<Triangle>, MeshError> {
-        let means;
-        let (normals, indices) = match &self.normals {
-            Some((normals, indices)) => (normals, indices),
-            None => {
-                means = self.means();
-                (&means, &self.corners)
+    fn smooth(&self) -> Result<Vec<Triangle>, MeshError> {
+        let all_given = self.list.iter().flat_map(|piece| piece.corners).all(Corner::has_normal);
+        let means = if all_given { Vec::new() } else { self.means() };
+        let mut triangles = Vec::with_capacity(self.list.len());
+        for piece in &self.list {
+            let mut normals = [Vector::default(); 3];
+            for (normal, corner) in normals.iter_mut().zip(piece.corners) {
+                *normal = match self.obj.normal(corner) {
+                    Some(given) => given.unit.ok_or_else(|| no_direction(given.line))?,
+                    None => {
+                        let mean = means.get(corner.position).and_then(|mean| mean.unit());
+                        mean.ok_or_else(|| planes_cancel(piece.line))?
+                    }
+                };
             }
-        };
-        let units: Vec<Option<Vector>> = normals.iter().map(|normal| normal.unit()).collect();
-        let mut triangles = Vec::with_capacity(self.corners.len());
-        for (face, (&corners, of)) in self.corners.iter().zip(indices).enumerate() {
-            let [Some(a), Some(b), Some(c)] = of.map(|index| units.get(index).copied().flatten())
-            else {
-                let problem = "the normal at a corner of this face has length 0: the triangles around it \
-                               cancel; give normals (vn), or say \"normals\": \"flat\"";
-                return Err(MeshError::at(line(face), problem));
-            };
-            triangles.push(Triangle { corners: self.places(corners), normals: [a, b, c] });
+            triangles.push(Triangle { corners: self.places(piece), normals });
         }
         Ok(triangles)
     }
@@ -144,19 +102,34 @@ impl Faces {
     /// At every position the mean of the planes around it, weighed by their angles there, so that cutting a polygon
     /// into other triangles changes nothing.
     fn means(&self) -> Vec<Vector> {
-        let mut sums = vec![Vector::default(); self.positions.len()];
-        for &corners in &self.corners {
-            let places = self.places(corners);
+        let mut sums = vec![Vector::default(); self.obj.positions.len()];
+        for piece in &self.list {
+            let places = self.places(piece);
             let Some(plane) = plane_normal(places).unit() else { continue };
             for corner in 0..3 {
                 let [here, next, last] = [0, 1, 2].map(|step| places[(corner + step) % 3]);
-                if let (Some(one), Some(other)) = ((next - here).unit(), (last - here).unit()) {
-                    let angle = core_math::acos(one.dot(other).clamp(-1.0, 1.0));
-                    sums[corners[corner]] = sums[corners[corner]] + plane * angle;
+                let (Some(one), Some(other)) = ((next - here).unit(), (last - here).unit()) else {
+                    continue;
+                };
+                let angle = core_math::acos(one.dot(other).clamp(-1.0, 1.0));
+                if let Some(sum) = sums.get_mut(piece.corners[corner].position) {
+                    *sum = *sum + plane * angle;
                 }
             }
         }
         // A sum that is only what rounding left of planes that cancel is none.
         sums.iter().map(|&sum| if sum.length() < 1e-9 { Vector::default() } else { sum }).collect()
     }
+}
+
+fn no_direction(line: usize) -> MeshError {
+    let problem = "a normal of length 0, or of what is no number, points nowhere; write vn x y z, or say \
+                   \"normals\": \"flat\" in the scene";
+    MeshError::Line { line, problem: problem.into() }
+}
+
+fn planes_cancel(line: usize) -> MeshError {
+    let problem = "the normal at a corner of this face has length 0: the triangles around it cancel; give \
+                   normals (vn), or say \"normals\": \"flat\"";
+    MeshError::Line { line, problem: problem.into() }
 }

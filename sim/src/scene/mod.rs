@@ -11,8 +11,9 @@ mod check;
 pub mod description;
 mod error;
 mod knot;
-mod lines;
 mod mesh;
+mod obj;
+mod polygon;
 mod vector;
 
 use std::io;
@@ -23,6 +24,7 @@ pub use error::{MeshError, SceneError};
 pub use knot::{Knot, KnotError};
 pub use mesh::{Triangle, triangles};
 pub use vector::Vector;
+use vectors::text_file::decimal_comma;
 
 /// A scene whose values were checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,15 +137,19 @@ impl Scene {
         text: &str,
         read: &mut dyn FnMut(&str) -> io::Result<String>,
     ) -> Result<Self, SceneError> {
+        let wrong = |path, source: serde_json::Error| {
+            let hint = decimal_comma(text, &source).unwrap_or_default();
+            SceneError::Json { path, source, hint }
+        };
         let mut deserializer = serde_json::Deserializer::from_str(text);
         let description: Description = serde_path_to_error::deserialize(&mut deserializer)
             .map_err(|error| {
                 // Where the text ends too early, the last step has no name.
                 let path = error.path().to_string();
                 let path = path.trim_end_matches('?').trim_end_matches('.').to_owned();
-                SceneError::Json { path, source: error.into_inner() }
+                wrong(path, error.into_inner())
             })?;
-        let whole = |source| SceneError::Json { path: String::new(), source };
+        let whole = |source| wrong(String::new(), source);
         deserializer.end().map_err(whole)?;
         check::scene(&description, read)
     }

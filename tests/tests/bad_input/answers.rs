@@ -51,7 +51,10 @@ fn a_log_that_is_none() {
     let bench = bench!();
     let right = right(&bench);
     for (text, said) in [
-        ("", &["dut.csv:1:", "`intensity` is missing"][..]),
+        ("", &["dut.csv:1:", "empty", "`intensity` is missing"][..]),
+        ("intensity;status\n0;0\n", &["dut.csv:1:", "separated by `;`"]),
+        ("intensity\tstatus\n0\t0\n", &["dut.csv:1:", "separated by tabs"]),
+        ("index,intensity\n0;0\n", &["dut.csv:2:", "separated by `;`"]),
         ("intensity\n", &["no answers"]),
         ("index,status\n0,0\n", &["dut.csv:1:", "`intensity` is missing"]),
         ("intensity,t1\n0,0\n", &["dut.csv:1:", "\"t1\"", "vectors.csv"]),
@@ -69,8 +72,11 @@ fn a_log_that_is_none() {
     bench.write("dut.csv", long.text());
     bench.refused(CHECK, &["dut.csv:11:", "one too many", "9 vectors"]);
     bench.write("dut.csv", b"intensity\n\xff\n");
-    bench.refused(CHECK, &["cannot read dut.csv", "UTF-8", "line 2"]);
-    bench.refused("check --vectors v --log none.csv", &["cannot read none.csv", "No such file"]);
+    bench.refused(CHECK, &["dut.csv:2:", "UTF-8", "byte 1", "0xff"]);
+    bench.refused(
+        "check --vectors v --log none.csv",
+        &["cannot read the log none.csv", "No such file"],
+    );
     bench.refused("check --vectors v --log .", &["cannot read", "directory"]);
     bench.refused("check --vectors v", &["--log"]);
     bench.refused("check --log dut.csv", &["--vectors"]);

@@ -25,7 +25,9 @@ fn refused_by_all(bench: &Bench, json: &str, said: &[&str]) {
 fn json_that_is_none() {
     let bench = bench!();
     for (json, said) in [
-        ("", "line 1 column 0"),
+        ("", "the file is empty"),
+        ("\n", "line 2 column 0"),
+        (&SMALL.replace("3\n}", "3,\n  \"q\": 0,5\n}"), "`0,5` a decimal comma? write 0.5"),
         ("{", "line 1 column 1"),
         ("[]", "line 1 column 2"),
         ("{\"name\": \"a\",\n \"method\": hermite}", "line 2 column 12"),

@@ -11,6 +11,7 @@ mod places;
 mod scenes;
 mod searches;
 mod stimulus;
+mod text;
 
 use blysk_tests::cli::SMALL;
 

@@ -51,7 +51,7 @@ fn with_mesh() -> Bench {
 fn json_that_is_no_scene() {
     let bench = with_mesh();
     for (scene, said) in [
-        ("", &["line 1 column 0"][..]),
+        ("", &["the file is empty"][..]),
         ("[]", &["line 1 column"]),
         (&SCENE[..200], &["EOF", "line 6"]),
         (&format!("{SCENE} x"), &["trailing", "line 19"]),
@@ -63,6 +63,10 @@ fn json_that_is_no_scene() {
         (&edited("\"exponent\": 8, ", ""), &["`materials[1]`", "missing field `exponent`"]),
         (&edited("\"exponent\": 8", "\"exponent\": \"8\""), &["`materials[1].exponent`", "string"]),
         (&edited("\"exponent\": 8", "\"exponent\": NaN"), &["line 11 column"]),
+        (
+            &edited("\"exponent\": 8", "\"exponent\": 8,5"),
+            &["line 11 column", "`8,5` a decimal comma? write 8.5"],
+        ),
         (&edited("[3, 3, 3]", "[3, 3]"), &["`lights[1].point.position", "array of length 3"]),
         (&edited("[3, 3, 3]", "[3, 3, 3, 3]"), &["`lights[1].point.position"]),
         (&edited("[3, 3, 3]", "[3, 3, null]"), &["`lights[1].point.position[2]`", "null"]),
@@ -184,7 +188,7 @@ fn meshes_that_are_none() {
     let bench = with_mesh();
     bench.write("scene.json", SCENE);
     for (mesh, said) in [
-        ("", &["m.obj:", "no face"][..]),
+        ("", &["m.obj", "no face"][..]),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", &["m.obj:", "no face"]),
         (&MESH.replace("v 1 0 0", "v NaN 0 0"), &["m.obj:3:", "NaN", "-1e9 to 1e9"]),
         (&MESH.replace("v 1 0 0", "v inf 0 0"), &["m.obj:3:", "inf"]),
@@ -199,7 +203,8 @@ fn meshes_that_are_none() {
         (&MESH.replace("f 2 4 3", "f 2 4"), &["m.obj:7:", "3 corners"]),
         (&MESH.replace("f 2 4 3", "f 2 four 3"), &["m.obj:7:", "\"four\""]),
         (&MESH.replace("f 2 4 3", "f 2 4/1/1/1 3"), &["m.obj:7:", "v/vt/vn"]),
-        (&MESH.replace("f 2 4 3", "f 2//1 4//1 3//1"), &["m.obj:7:", "some corners"]),
+        (&MESH.replace("f 2 4 3", "f 2//1 4//1 3//1"), &["m.obj:7:", "vn 1", "there are 0"]),
+        (&MESH.replace("f 2 4 3", "vn 0 0 1\nf 2//1 4 3//1"), &["m.obj:8:", "some corners"]),
         (&MESH.replace("f 2 4 3", "f 2/1 4/1 3/1"), &["m.obj:7:", "vt 1", "there are 0"]),
         ("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//1\n", &["m.obj:4:", "length 0"]),
         (
@@ -212,8 +217,16 @@ fn meshes_that_are_none() {
         let said = [said, &["scene.json", "`geometry[2].mesh.file`"]].concat();
         bench.refused("render scene.json --config small.json --out new/deep", &said);
     }
-    bench.write("m.obj", [b'v', 0xff]);
-    bench.refused("scene scene.json", &["m.obj", "UTF-8"]);
+    for (bytes, said) in [
+        (&b"v\xff"[..], &["m.obj:1:", "no face"][..]),
+        (b"v 0 0 0\nv \xb5 0 0\n", &["m.obj:2:", "\"?\"", "not a number"]),
+        (b"v 0 0 0\nv 1 \0 0\n", &["m.obj:2:", "byte of 0"]),
+        (b"v\0 \x000\0\n\0", &["m.obj cannot be read", "UTF-16LE", "UTF-8"]),
+        (b"", &["m.obj cannot be read", "empty", "`f a b c`"]),
+    ] {
+        bench.write("m.obj", bytes);
+        bench.refused("scene scene.json", said);
+    }
     let flat = edited("\"m.obj\", ", "\"m.obj\", \"normals\": \"flat\", ");
     bench.write("flat.json", flat);
     bench.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n");

@@ -53,8 +53,11 @@ fn a_stimulus_with_a_mistake() {
     bench.refused("simulate --config small.json --stimulus in.csv", &["in.csv:2:", "UTF-8"]);
     bench.refused(
         "simulate --config small.json --stimulus none.csv --out new",
-        &["cannot read none.csv", "No such file"],
+        &["cannot read the stimulus none.csv", "No such file"],
     );
-    bench.refused("simulate --config small.json --stimulus . --out new", &["cannot read"]);
+    bench.refused(
+        "simulate --config small.json --stimulus . --out new",
+        &["cannot read the stimulus .", "directory"],
+    );
     bench.refused("simulate --config small.json --out new", &["--stimulus"]);
 }

@@ -8,6 +8,7 @@ mod check;
 mod coefficients;
 mod design;
 mod help;
+mod meshes;
 mod output;
 mod pareto;
 mod presets;

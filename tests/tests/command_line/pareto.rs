@@ -348,10 +348,16 @@ fn what_cannot_be_compared_is_refused() {
     refused("--input UQ1.40 --out new", &["are more than", "--every"]);
     refused("--input Q1.0 --out new", &["Q1.0"]);
     refused("--input 24 --out new", &["24"]);
-    refused("--no-timing --synth nowhere.csv --out new", &["cannot read nowhere.csv"]);
+    refused("--no-timing --synth nowhere.csv --out new", &["cannot read the table nowhere.csv"]);
     refused("--no-timing --synth small.json --out new", &["small.json", "`make synth`"]);
     refused(&format!("{} --out small.json", &SMALL[7..]), &["a file is in the way"]);
-    refused("--check nowhere.csv", &["cannot read nowhere.csv"]);
+    refused("--check nowhere.csv", &["cannot read the table nowhere.csv"]);
     refused("--check small.json", &["pareto.csv"]);
+    bench.write("semicolon.csv", "contender;kind\nschlick f32;f32\n");
+    refused("--check semicolon.csv", &["semicolon.csv:1:", "separated by `;`"]);
+    refused(
+        "--no-timing --synth semicolon.csv --out new",
+        &["semicolon.csv:1:", "separated by `;`"],
+    );
     refused("--check pareto.csv --out new", &["--check", "--out"]);
 }

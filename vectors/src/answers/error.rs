@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use thiserror::Error;
 
 use crate::table::TableError;
+use crate::text_file::TextError;
 use crate::verify::VerifyError;
 
 /// Why answers cannot be judged.
@@ -17,14 +18,9 @@ pub enum AnswersError {
     /// The bundle's table.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// The log cannot be read, or is not CSV (with the line).
-    #[error("cannot read {}: {cause}", path.display())]
-    Csv {
-        /// The log.
-        path: PathBuf,
-        /// What is wrong.
-        cause: csv::Error,
-    },
+    /// The log cannot be read, or is no text.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// A line of the log, or the line of column names.
     #[error("{}:{line}: {problem}", path.display())]
     Line {

@@ -7,16 +7,15 @@ use hw_model::format::QFormat;
 
 use super::{AnswersError, Column, Got, INTENSITY};
 use crate::memory_file::{Value, value};
+use crate::records::{Record, RecordError, Records};
+use crate::text_file::{self, ANSWER_LOG, TextError};
 
 const INDEX: &str = "index";
 
 /// A log under way.
 pub(super) struct Log {
     path: PathBuf,
-    reader: csv::Reader<File>,
-    record: csv::StringRecord,
-    /// Columns that the first line names.
-    width: usize,
+    records: Records<File>,
     index: Option<usize>,
     columns: Vec<Placed>,
     /// The line that answers each vector; 0 where none has so far.
@@ -51,21 +50,17 @@ impl Log {
         known: Vec<Column>,
         count: usize,
     ) -> Result<Self, AnswersError> {
-        let in_file = |cause| AnswersError::Csv { path: path.to_owned(), cause };
-        let mut reader = csv::ReaderBuilder::new()
-            .trim(csv::Trim::All)
-            .comment(Some(b'#'))
-            .flexible(true)
-            .from_path(path)
-            .map_err(in_file)?;
-        let header = reader.headers().map_err(in_file)?.clone();
-        let (index, columns) = places(&header, known).map_err(|problem| {
-            let line = header.position().map_or(1, csv::Position::line);
-            AnswersError::Line { path: path.to_owned(), line, problem }
+        let mut records = Records::new(text_file::open(path, ANSWER_LOG)?);
+        let header = records.next_record().map_err(|error| refused(path, error))?;
+        let line = header.as_ref().map_or(1, |header| header.line);
+        let names = header.map_or_else(Vec::new, |header| header.fields);
+        let (index, columns) = places(&names, known).map_err(|problem| {
+            let empty =
+                if names.is_empty() { "the file is empty, or has comments only: " } else { "" };
+            AnswersError::Line { path: path.to_owned(), line, problem: format!("{empty}{problem}") }
         })?;
-        let record = csv::StringRecord::new();
-        let (path, width, lines) = (path.to_owned(), header.len(), vec![0; count]);
-        Ok(Self { path, reader, record, width, index, columns, lines, answered: 0 })
+        let (path, lines) = (path.to_owned(), vec![0; count]);
+        Ok(Self { path, records, index, columns, lines, answered: 0 })
     }
 
     /// What is compared, in order: registers first, then ports.
@@ -80,68 +75,71 @@ impl Log {
 
     /// The next line; none at the end.
     pub(super) fn next_answer(&mut self) -> Result<Option<Answer>, AnswersError> {
-        match self.reader.read_record(&mut self.record) {
-            Err(cause) => return Err(AnswersError::Csv { path: self.path.clone(), cause }),
-            Ok(false) if self.answered == 0 => return Err(AnswersError::Empty(self.path.clone())),
-            Ok(false) => return Ok(None),
-            Ok(true) => {}
-        }
-        let line = self.record.position().map_or(0, csv::Position::line);
-        let in_line = |problem| AnswersError::Line { path: self.path.clone(), line, problem };
+        let Self { path, records, index, columns, lines, answered } = self;
+        let record = records.next_record().map_err(|error| refused(path, error))?;
+        let Some(Record { line, fields }) = record else {
+            return if *answered == 0 { Err(AnswersError::Empty(path.clone())) } else { Ok(None) };
+        };
+        let in_line = |problem| AnswersError::Line { path: path.clone(), line, problem };
         let in_field = |column: &str, problem| {
-            let (path, column) = (self.path.clone(), column.to_owned());
+            let (path, column) = (path.clone(), column.to_owned());
             AnswersError::Field { path, line, column, problem }
         };
-        if self.record.len() != self.width {
-            let (found, width) = (self.record.len(), self.width);
-            let problem = format!("there are {found} fields, the first line names {width} columns");
-            return Err(in_line(problem));
-        }
-        let index = match self.index {
-            None => self.next_index().map_err(in_line)?,
-            Some(place) => self.named_index(place).map_err(|problem| in_field(INDEX, problem))?,
+        let field = |place: usize| fields.get(place).copied().unwrap_or_default();
+        let index = match *index {
+            None => next_index(*answered, lines.len()).map_err(in_line)?,
+            Some(place) => {
+                named_index(field(place), lines).map_err(|problem| in_field(INDEX, problem))?
+            }
         };
-        let mut values = Vec::with_capacity(self.columns.len());
-        for placed in &mut self.columns {
-            let value = placed.value(self.record.get(placed.place).unwrap_or_default());
+        let mut values = Vec::with_capacity(columns.len());
+        for placed in columns {
+            let value = placed.value(field(placed.place));
             values.push(value.map_err(|problem| in_field(&placed.column.name, problem))?);
         }
-        self.lines[index] = line;
-        self.answered += 1;
+        if let Some(answering) = lines.get_mut(index) {
+            *answering = line;
+        }
+        *answered += 1;
         Ok(Some(Answer { index, line, values }))
     }
+}
 
-    /// Without an index the lines are in the order of the vectors.
-    fn next_index(&self) -> Result<usize, String> {
-        let (next, count) = (self.answered, self.lines.len());
-        let many = || format!("this answer is one too many; the bundle has {count} vectors");
-        (next < count).then_some(next).ok_or_else(many)
-    }
-
-    fn named_index(&self, place: usize) -> Result<usize, String> {
-        let text = self.record.get(place).unwrap_or_default();
-        let last = self.lines.len().saturating_sub(1);
-        let index: usize = text.parse().map_err(|_| {
-            format!("{text:?} is no index; write the vector's number in decimal, from 0 to {last}")
-        })?;
-        match self.lines.get(index) {
-            None => Err(format!("{index} is out of range; the vectors are 0 to {last}")),
-            Some(0) => Ok(index),
-            Some(line) => Err(format!("vector {index} is answered twice, first in line {line}")),
+fn refused(path: &Path, error: RecordError) -> AnswersError {
+    match error {
+        RecordError::Text(problem) => TextError::new(path, &ANSWER_LOG, problem).into(),
+        RecordError::Line { line, problem } => {
+            AnswersError::Line { path: path.to_owned(), line, problem }
         }
     }
 }
 
+/// Without an index the lines are in the order of the vectors.
+fn next_index(next: usize, count: usize) -> Result<usize, String> {
+    let many = || format!("this answer is one too many; the bundle has {count} vectors");
+    (next < count).then_some(next).ok_or_else(many)
+}
+
+/// `lines` has the line that answers each vector.
+fn named_index(text: &str, lines: &[u64]) -> Result<usize, String> {
+    let last = lines.len().saturating_sub(1);
+    let index: usize = text.parse().map_err(|_| {
+        format!("{text:?} is no index; write the vector's number in decimal, from 0 to {last}")
+    })?;
+    match lines.get(index) {
+        None => Err(format!("{index} is out of range; the vectors are 0 to {last}")),
+        Some(0) => Ok(index),
+        Some(line) => Err(format!("vector {index} is answered twice, first in line {line}")),
+    }
+}
+
 /// Where the index is, if anywhere, and the known columns that the header names.
-fn places(
-    header: &csv::StringRecord,
-    known: Vec<Column>,
-) -> Result<(Option<usize>, Vec<Placed>), String> {
+fn places(header: &[&str], known: Vec<Column>) -> Result<(Option<usize>, Vec<Placed>), String> {
     const COLUMNS: &str = "the columns are index, intensity, status, and the registers that \
                            vectors.csv names, such as front_end.region";
     let mut index = None;
     let mut found: Vec<Option<usize>> = vec![None; known.len()];
-    for (place, full_name) in header.iter().enumerate() {
+    for (place, &full_name) in header.iter().enumerate() {
         let name = full_name.strip_suffix("_hex").unwrap_or(full_name);
         let taken = match known.iter().position(|column| column.name == name) {
             Some(column) => &mut found[column],

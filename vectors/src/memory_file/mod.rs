@@ -8,10 +8,11 @@
 mod read;
 mod write;
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
+
+use crate::text_file::TextError;
 
 pub(crate) use read::value;
 pub use read::{Entry, Value, parse, read_words};
@@ -21,14 +22,9 @@ pub use write::{Header, write_header, write_word};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MemoryError {
-    /// The file cannot be read.
-    #[error("cannot read {}: {cause}", path.display())]
-    Io {
-        /// The file.
-        path: PathBuf,
-        /// What the system said.
-        cause: io::Error,
-    },
+    /// The file cannot be read, or is no text.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// Something in a line.
     #[error("{}:{line}: {problem}", path.display())]
     Line {

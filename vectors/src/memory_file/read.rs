@@ -1,11 +1,11 @@
 //! Reading memory files.
 
-use std::fs;
 use std::path::Path;
 
 use dashu_int::UBig;
 
 use super::{LineProblem, MemoryError, at_line};
+use crate::text_file::{self, MEMORY};
 
 /// What a number in a memory file means.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -56,8 +56,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
 /// When the file cannot be read, a line is wrong, a value is unknown or too wide, or a word is
 /// missing or beyond the end.
 pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, MemoryError> {
-    let text = fs::read_to_string(path)
-        .map_err(|cause| MemoryError::Io { path: path.to_owned(), cause })?;
+    let text = text_file::read(path, MEMORY)?;
     let mut words: Vec<Option<UBig>> = vec![None; depth];
     for Entry { line, address, value } in parse(&text, path)? {
         let wrong = |problem| Err(at_line(path, line, problem));

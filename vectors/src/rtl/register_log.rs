@@ -5,12 +5,13 @@
 //! and its registers, in the order of [`probes`]. A word with x or z in it is unknown. The last line is
 //! `R-END` and the number of cycles: without it a log that was cut off would agree.
 
-use std::io::{self, BufRead};
+use std::io::BufRead;
 
 use hw_model::datapath::Datapath;
 use thiserror::Error;
 
 use super::probes::{Probe, probes};
+use crate::text_file::TextProblem;
 
 /// What the last line begins with; the number of cycles follows.
 pub const END: &str = "R-END ";
@@ -22,14 +23,9 @@ const PORTS: usize = 7;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RegisterLogError {
-    /// The log cannot be read.
-    #[error("line {line}: cannot read: {cause}")]
-    Io {
-        /// Counted from 1.
-        line: u64,
-        /// What the system said.
-        cause: io::Error,
-    },
+    /// The log cannot be read, or is no text.
+    #[error("cannot read the log: {0}")]
+    Text(#[from] TextProblem),
     /// A line has another number of words.
     #[error("line {line}: {found} words, and not {wanted}; is it a log of another configuration?")]
     Words {
@@ -134,7 +130,7 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
             self.current.line += 1;
             let line = self.current.line;
             let read = self.input.read_line(&mut self.text);
-            if read.map_err(|cause| RegisterLogError::Io { line, cause })? == 0 {
+            if read.map_err(TextProblem::from)? == 0 {
                 let cycles = self.cycles;
                 let unfinished = RegisterLogError::Unfinished { line: line - 1, cycles };
                 // A file without any cycle is not one that was cut off; whoever asked finds nothing in it.

@@ -20,6 +20,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::text_file::TextError;
+
 pub use read::{TableRow, read_columns, read_table};
 pub use write::{TableWriter, hex};
 
@@ -27,7 +29,10 @@ pub use write::{TableWriter, hex};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TableError {
-    /// The file cannot be read, or is not CSV (with the line).
+    /// The file cannot be read, or is no text.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The file is not CSV (with the line).
     #[error("cannot read {}: {cause}", path.display())]
     Csv {
         /// The file.

@@ -1,12 +1,14 @@
 //! Reading the table.
 
 use std::fs::File;
+use std::io;
 use std::path::Path;
 use std::str::FromStr;
 
 use super::TableError;
 use crate::case::Case;
 use crate::reference::Expected;
+use crate::text_file::{self, TextError, TextReader, VECTOR_TABLE};
 
 /// One line of the table.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,14 +56,23 @@ pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<i64>>, TableE
 /// What the columns of registers hold.
 const BITS: &str = "an integer of at most 63 bits";
 
-fn open(path: &Path) -> Result<(csv::Reader<File>, csv::StringRecord), TableError> {
-    let mut reader = csv::Reader::from_path(path).map_err(|cause| in_file(path, cause))?;
+type Reader = csv::Reader<TextReader<File>>;
+
+fn open(path: &Path) -> Result<(Reader, csv::StringRecord), TableError> {
+    let mut reader = csv::Reader::from_reader(text_file::open(path, VECTOR_TABLE)?);
     let header = reader.headers().map_err(|cause| in_file(path, cause))?.clone();
     Ok((reader, header))
 }
 
 fn in_file(path: &Path, cause: csv::Error) -> TableError {
-    TableError::Csv { path: path.to_owned(), cause }
+    if !cause.is_io_error() {
+        return TableError::Csv { path: path.to_owned(), cause };
+    }
+    let error = match cause.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        _ => io::ErrorKind::Other.into(),
+    };
+    TextError::new(path, &VECTOR_TABLE, error).into()
 }
 
 struct Columns {

@@ -2,7 +2,6 @@
 
 mod print;
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -13,6 +12,7 @@ use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method, UnknownMethod};
 use rayon::prelude::*;
+use vectors::text_file::{self, CERTIFICATE};
 use vectors::whole_file::WholeFile;
 
 use super::configuration::{find_preset, load_config};
@@ -216,8 +216,7 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
 /// What was accepted is shown in full: a certificate of [0, 9] is as true as one of a narrow interval.
 fn check_file(path: &Path, bound: Option<f64>, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
-    let text =
-        fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
+    let text = text_file::read(path, CERTIFICATE)?;
     let certificate = Certificate::parse(&text).with_context(|| shown.to_string())?;
     let work = match certificate.claim() {
         Claim::Hardware(claim) => Some(claim.points),

@@ -1,0 +1,89 @@
+//! How long each kind of input file may be.
+
+use super::TextProblem;
+
+/// A kind of input file.
+#[derive(Debug, Clone, Copy)]
+pub struct TextKind {
+    /// What messages call it.
+    pub noun: &'static str,
+    /// The most bytes that are read.
+    pub most_bytes: u64,
+    /// The most bytes of one line.
+    pub most_line_bytes: u64,
+    /// Bytes that are not UTF-8 are read as `?` each: for files whose words do not matter.
+    pub lossy: bool,
+    /// What an empty file should have, where [`super::read()`] refuses it.
+    pub when_empty: Option<&'static str>,
+}
+
+const MIB: u64 = 1 << 20;
+const GIB: u64 = 1 << 30;
+
+/// The most bytes of a line of a file that is read line by line.
+const LINE: u64 = MIB;
+
+impl TextKind {
+    /// A file that is kept in memory as a whole; JSON may well have one line.
+    const fn whole(noun: &'static str, most_bytes: u64, when_empty: &'static str) -> Self {
+        let when_empty = Some(when_empty);
+        Self { noun, most_bytes, most_line_bytes: most_bytes, lossy: false, when_empty }
+    }
+
+    /// A file that is read line by line.
+    const fn lines(noun: &'static str, most_bytes: u64) -> Self {
+        Self { noun, most_bytes, most_line_bytes: LINE, lossy: false, when_empty: None }
+    }
+
+    pub(super) const fn too_long(&self) -> TextProblem {
+        TextProblem::Long { noun: self.noun, most: self.most_bytes }
+    }
+}
+
+/// A configuration.
+pub const CONFIGURATION: TextKind = TextKind::whole(
+    "configuration",
+    16 * MIB,
+    "`blysk presets show NAME` prints a configuration to start from",
+);
+
+/// A scene.
+pub const SCENE: TextKind =
+    TextKind::whole("scene", 256 * MIB, "`blysk scene --schema` prints what a scene has");
+
+/// A mesh: only its numbers count, and its names may be Latin-1.
+pub const MESH: TextKind = TextKind {
+    lossy: true,
+    ..TextKind::whole("mesh", 512 * MIB, "it has no face; give at least one line `f a b c`")
+};
+
+/// A certificate.
+pub const CERTIFICATE: TextKind =
+    TextKind::whole("certificate", 256 * MIB, "write the certificate again");
+
+/// The manifest of a bundle.
+pub const MANIFEST: TextKind = TextKind::whole("manifest", 16 * MIB, "write the bundle again");
+
+/// A memory image. An empty one is told by the words that it should have.
+pub const MEMORY: TextKind =
+    TextKind { most_line_bytes: 256 * MIB, ..TextKind::lines("memory file", 256 * MIB) };
+
+/// The table of a bundle, with every register of every vector.
+pub const VECTOR_TABLE: TextKind = TextKind::lines("table", 8 * GIB);
+
+/// What `blysk pareto` wrote.
+pub const PARETO_TABLE: TextKind =
+    TextKind::whole("table", 16 * MIB, "`blysk pareto --out DIR` writes pareto.csv");
+
+/// What `make synth` wrote.
+pub const SYNTHESIS_TABLE: TextKind =
+    TextKind::whole("table", 16 * MIB, "`make synth` writes synth.csv");
+
+/// A stimulus file.
+pub const STIMULUS: TextKind = TextKind::lines("stimulus", 512 * MIB);
+
+/// A log of answers.
+pub const ANSWER_LOG: TextKind = TextKind::lines("log", 16 * GIB);
+
+/// A log of every register of every cycle, between the lines that a simulator prints of its own.
+pub const REGISTER_LOG: TextKind = TextKind { lossy: true, ..TextKind::lines("log", 64 * GIB) };
