@@ -35,7 +35,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         out.write_all(schema().as_bytes())?;
         return Ok(Outcome::Good);
     };
-    let scene = load(path)?;
+    let scene = load(path)?.scene;
     rows(&scene).print(out, args.format, 6)?;
     if matches!(args.format, Format::Table) {
         let (image, lights) = (&scene.image, scene.lights.len());
@@ -80,13 +80,24 @@ pub(super) fn counted(count: usize, what: &str) -> String {
 /// The greatest scene or mesh file that is read: more is a mistake, or would not fit the memory.
 const MOST_BYTES: u64 = 1 << 30;
 
+/// A scene that was read.
+pub(super) struct Loaded {
+    pub(super) scene: Scene,
+    /// The files that it was read from: its own, and those of its meshes.
+    pub(super) files: Vec<PathBuf>,
+}
+
 /// Reads a scene. Paths of meshes start at its directory.
-pub(super) fn load(path: &Path) -> anyhow::Result<Scene> {
+pub(super) fn load(path: &Path) -> anyhow::Result<Loaded> {
     let shown = path.display();
     let text = text(path).with_context(|| format!("cannot read the scene {shown}"))?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    Scene::from_json(&text, &mut |file| text_of_mesh(directory, file))
-        .with_context(|| shown.to_string())
+    let mut files = vec![path.to_owned()];
+    let scene = Scene::from_json(&text, &mut |file| {
+        files.push(directory.join(file));
+        text_of_mesh(directory, file)
+    });
+    Ok(Loaded { scene: scene.with_context(|| shown.to_string())?, files })
 }
 
 fn text_of_mesh(directory: &Path, file: &str) -> io::Result<String> {

@@ -1,0 +1,141 @@
+//! Where `blysk simulate` records a run: two files anywhere, or a directory.
+
+use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, bail};
+use vectors::whole_file::Draft;
+use vectors::{OutputError, OutputFile, OutputSet, Staging};
+
+use super::output;
+use crate::waves::WaveFormat;
+
+/// The files of a directory.
+const NAMES: [&str; 2] = ["trace.csv", "waves.vcd"];
+
+/// The files of a run, which have no names before it is over.
+pub(super) enum Recordings {
+    Files { trace: Option<Draft>, waves: Option<(WaveFormat, Draft)>, staging: Staging },
+    Directory { trace: OutputFile, waves: OutputFile, set: OutputSet },
+}
+
+impl Recordings {
+    pub(super) fn of_files(
+        trace: Option<&Path>,
+        waves: Option<&Path>,
+        inputs: &[PathBuf],
+    ) -> anyhow::Result<Self> {
+        let format = waves.map(wave_format).transpose()?;
+        let mut staging = Staging::apart_from(inputs);
+        let mut begin = |path| match staging.begin(path) {
+            Err(OutputError::Twice(_)) => {
+                bail!("--trace and --waves name the same file; give each its own")
+            }
+            begun => Ok(begun?),
+        };
+        let trace = trace.map(&mut begin).transpose()?;
+        let waves = waves.map(&mut begin).transpose()?;
+        if let (Some(WaveFormat::Fst), Some(waves)) = (format, &waves)
+            && !waves.is_file()
+        {
+            let path = waves.path().display();
+            bail!("--waves {path}: FST is not written in order, which a pipe asks for; use .vcd");
+        }
+        Ok(Self::Files { trace, waves: format.zip(waves), staging })
+    }
+
+    pub(super) fn in_directory(directory: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
+        let mut set = output::set(directory, "simulate", inputs, NAMES)?;
+        let [trace, waves] = NAMES;
+        Ok(Self::Directory { trace: set.file(trace)?, waves: set.file(waves)?, set })
+    }
+
+    /// What to write the trace and the waves to.
+    pub(super) fn targets(&mut self) -> (Option<Target<'_>>, Option<(WaveFormat, Target<'_>)>) {
+        match self {
+            Self::Files { trace, waves, .. } => {
+                let waves = waves.as_mut().map(|(format, file)| (*format, Target::File(file)));
+                (trace.as_mut().map(Target::File), waves)
+            }
+            Self::Directory { trace, waves, .. } => {
+                (Some(Target::OfSet(trace)), Some((WaveFormat::Vcd, Target::OfSet(waves))))
+            }
+        }
+    }
+
+    /// Gives the files their names. True where one went to standard output, which then has nothing else.
+    pub(super) fn commit(self) -> anyhow::Result<bool> {
+        match self {
+            Self::Files { trace, waves, mut staging } => {
+                let files: Vec<Draft> =
+                    trace.into_iter().chain(waves.map(|(_, file)| file)).collect();
+                let alone = files.iter().any(Draft::is_standard_output);
+                for file in files {
+                    staging.keep(file)?;
+                }
+                staging.commit()?;
+                Ok(alone)
+            }
+            Self::Directory { trace, waves, mut set } => {
+                set.keep(trace)?;
+                set.keep(waves)?;
+                set.commit()?;
+                Ok(false)
+            }
+        }
+    }
+}
+
+/// The format that the end of a file's name asks for.
+fn wave_format(path: &Path) -> anyhow::Result<WaveFormat> {
+    let asked = path.extension().unwrap_or_default();
+    let found = WaveFormat::ALL.into_iter().find(|format| asked == format.extension());
+    found.with_context(|| {
+        format!("--waves {}: give the file a name that ends in .vcd or .fst", path.display())
+    })
+}
+
+/// A file whose errors say which file it is.
+pub(super) enum Target<'a> {
+    File(&'a mut Draft),
+    OfSet(&'a mut OutputFile),
+}
+
+impl Target<'_> {
+    fn named(&self, error: io::Error) -> io::Error {
+        let kind = error.kind();
+        let named = match self {
+            Self::File(file) => file.error(error),
+            Self::OfSet(file) => file.error(error),
+        };
+        io::Error::new(kind, named)
+    }
+}
+
+impl Write for Target<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = match self {
+            Self::File(file) => file.write(bytes),
+            Self::OfSet(file) => file.write(bytes),
+        };
+        written.map_err(|error| self.named(error))
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        let flushed = match self {
+            Self::File(file) => file.flush(),
+            Self::OfSet(file) => file.flush(),
+        };
+        flushed.map_err(|error| self.named(error))
+    }
+}
+
+/// For FST, which is never among the files of a directory: those are summed up as they are written.
+impl Seek for Target<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        let found = match self {
+            Self::File(file) => file.seek(to),
+            Self::OfSet(_) => Err(ErrorKind::NotSeekable.into()),
+        };
+        found.map_err(|error| self.named(error))
+    }
+}
