@@ -19,16 +19,15 @@ pub(super) fn set<N: AsRef<str>>(
     names: impl IntoIterator<Item = N>,
 ) -> anyhow::Result<OutputSet> {
     if is_standard_output(directory) {
-        bail!("--out -: several files do not go to standard output; give a directory (./- where it has that name)");
+        bail!(
+            "--out -: several files do not go to standard output; give a directory (./- where it has that name)"
+        );
     }
     Ok(OutputSet::apart_from(inputs, directory)?.listed(command)?.expect(names)?)
 }
 
 /// The file that a command writes to `--out FILE`, where `-` is standard output.
-pub(super) fn file(
-    out: Option<&PathBuf>,
-    inputs: &[PathBuf],
-) -> anyhow::Result<Option<WholeFile>> {
+pub(super) fn file(out: Option<&PathBuf>, inputs: &[PathBuf]) -> anyhow::Result<Option<WholeFile>> {
     Ok(out.map(|path| WholeFile::apart_from(inputs, path)).transpose()?)
 }
 

@@ -92,7 +92,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let (synthesis, origin) = synthesised(args)?;
     // Made before the work, so that an unwritable place is found at once.
     let synth = args.synth.clone().unwrap_or_else(|| PathBuf::from(SYNTH));
-    let set = args.out.as_deref().map(|out| output::set(out, "pareto", &[synth], files::TABLES)).transpose()?;
+    let set = args
+        .out
+        .as_deref()
+        .map(|out| output::set(out, "pareto", &[synth], files::TABLES))
+        .transpose()?;
     let timing =
         (!args.no_timing).then_some(TimingOptions { rounds: args.rounds, seed: args.seed });
     let bar = Bar::new(Some(inputs.count()));

@@ -73,7 +73,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     // Made before the work, so that an unwritable place is found at once.
     let inputs = [read, args.configuration.files()].concat();
     let names = files::PICTURES.into_iter().chain(files::TABLES);
-    let set = args.out.as_deref().map(|out| output::set(out, "render", &inputs, names)).transpose()?;
+    let set =
+        args.out.as_deref().map(|out| output::set(out, "render", &inputs, names)).transpose()?;
     let begun = Instant::now();
     let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
     let bar = Bar::counting(Some(rays), "pixels");

@@ -335,10 +335,15 @@ fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Ou
         Ok(certificate) => match written_with(path) {
             Ok(files) => {
                 write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;
-                write_folded(out, &match files {
-                    Some(count) => format!("The {count} files beside it are those written with it."),
-                    None => "It stands alone: files of hardware were not looked at.".to_owned(),
-                })?;
+                write_folded(
+                    out,
+                    &match files {
+                        Some(count) => {
+                            format!("The {count} files beside it are those written with it.")
+                        }
+                        None => "It stands alone: files of hardware were not looked at.".to_owned(),
+                    },
+                )?;
                 Ok(Outcome::Good)
             }
             Err(refused) => {

@@ -134,7 +134,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 
 /// The names of what the parts write first.
 fn names(asked: Part) -> impl Iterator<Item = String> {
-    let parts = Part::value_variants().iter().filter(move |&&part| part != Part::All && asked.has(part));
+    let parts =
+        Part::value_variants().iter().filter(move |&&part| part != Part::All && asked.has(part));
     let names = parts.filter_map(Part::to_possible_value);
     names.flat_map(|part| ["csv", "json"].map(|end| format!("{}.{end}", part.get_name())))
 }

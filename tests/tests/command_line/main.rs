@@ -18,4 +18,5 @@ mod report_against_brute_force;
 mod rom;
 mod specialise;
 mod stability;
+mod streams;
 mod vectors;

@@ -65,6 +65,7 @@ fn the_files_of_a_report() {
         "error_vs_n.json",
         "error_vs_n.png",
         "error_vs_n.svg",
+        "report.sha256",
     ];
     assert_eq!(names, wanted);
     for name in ["error_vs_n.csv", "error_vs_n.json", "curves", "deep/results"] {

@@ -103,7 +103,8 @@ fn files_are_replaced_whole() {
             "negative_control.mem",
             "rom.mem",
             "stimulus.mem",
-            "vectors.csv"
+            "vectors.csv",
+            "vectors.sha256"
         ]
     );
     assert_eq!(verify(bench.path("v")).unwrap().vectors.len(), 20);

@@ -38,7 +38,12 @@ impl Journal {
         step()?;
         file.rename(target).map_err(|(_, error)| error)?;
         let target = target.to_owned();
-        self.0.push(old.map_or_else(|| Step::Made(target.clone()), |old| Step::Replaced(target.clone(), old)));
+        self.0.push(
+            old.map_or_else(
+                || Step::Made(target.clone()),
+                |old| Step::Replaced(target.clone(), old),
+            ),
+        );
         Ok(())
     }
 

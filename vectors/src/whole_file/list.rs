@@ -143,7 +143,8 @@ mod tests {
     #[test]
     fn what_is_no_line_is_refused() {
         let sha256 = "0".repeat(64);
-        for text in ["", "0  a", &sha256, &format!("{sha256} a"), &format!("{sha256}  /etc/passwd")] {
+        for text in ["", "0  a", &sha256, &format!("{sha256} a"), &format!("{sha256}  /etc/passwd")]
+        {
             assert_eq!(read(text), None, "{text}");
         }
         assert_eq!(read(&format!("{sha256}  ../a")), None);

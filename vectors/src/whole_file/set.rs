@@ -1,12 +1,13 @@
 //! The files that one command writes into a directory.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
 use super::list::{line, list_name};
 use super::staging::{Draft, Staging};
+use super::temporary::parent;
 use crate::checksum::{Checked, Checksum};
 
 /// A file of a set, under way. What is written to it has no name until its set is committed.
@@ -75,9 +76,7 @@ impl OutputSet {
             path => path.to_owned(),
         };
         let mut staging = Staging::apart_from(inputs);
-        if staging.directory(&directory)?.is_none() {
-            Staging::probe(&directory)?;
-        }
+        staging.prepare(&directory)?;
         Ok(Self { directory, below: String::new(), list: None, sums: BTreeMap::new(), staging })
     }
 
@@ -93,13 +92,19 @@ impl OutputSet {
     /// Says that files of these names will be written, so that what is in their way is found before the work.
     ///
     /// # Errors
-    /// When something that is not a regular file has such a name, or an input.
+    /// When something that is not a regular file has such a name, or an input, or a directory cannot be written to.
     pub fn expect<N: AsRef<str>>(
-        self,
+        mut self,
         names: impl IntoIterator<Item = N>,
     ) -> Result<Self, OutputError> {
+        let mut directories = BTreeSet::from([self.directory.clone()]);
         for name in names {
-            self.staging.look(&self.directory.join(name.as_ref()))?;
+            let path = self.directory.join(name.as_ref());
+            self.staging.look(&path)?;
+            let directory = parent(&path);
+            if directories.insert(directory.to_owned()) {
+                self.staging.prepare(directory)?;
+            }
         }
         Ok(self)
     }

@@ -224,8 +224,11 @@ impl Staging {
         Ok(Some(inside))
     }
 
-    /// That files can be made in a directory that exists.
-    pub(super) fn probe(path: &Path) -> Result<(), OutputError> {
+    /// Sees to it that files can be made in a directory.
+    pub(super) fn prepare(&mut self, path: &Path) -> Result<(), OutputError> {
+        if self.directory(path)?.is_some() {
+            return Ok(());
+        }
         let refused = |cause: io::Error| OutputError::Directory {
             path: path.to_owned(),
             cause: cause.kind().into(),
