@@ -19,7 +19,7 @@ use crate::table::{TableError, TableRow, read_table};
 #[non_exhaustive]
 pub enum VerifyError {
     /// A file is missing or cannot be read.
-    #[error("cannot read {}: {cause}; write the bundle again", path.display())]
+    #[error("the bundle is incomplete: cannot read {}: {cause}; write it again", path.display())]
     Io {
         /// The file.
         path: PathBuf,

@@ -238,6 +238,32 @@ fn neither_inputs_nor_outputs_are_written_over() {
     assert_eq!(names(place.path()), ["in", "other_name"]);
 }
 
+/// Two sets that need the same directory, and neither is in the other's way.
+#[test]
+fn a_directory_that_another_set_makes_meanwhile_is_shared() {
+    let home = tempfile::tempdir().unwrap();
+    let begun = |directory: &str| {
+        let mut set = OutputSet::create(home.path().join(directory)).unwrap();
+        set.write("file", directory).unwrap();
+        set
+    };
+    let sets = ["new/a", "new/b", "new/deep/c", "new/a"].map(begun);
+    let [a, b, c, again] = sets;
+    for set in [a, b, c] {
+        set.commit().unwrap();
+    }
+    let error = again.commit().unwrap_err().to_string();
+    assert!(error.contains("new") && error.contains("in the way"), "{error}");
+    assert_eq!(names(home.path()), ["new"]);
+    assert_eq!(names(&home.path().join("new")), ["a", "b", "deep"]);
+    for directory in ["new/a", "new/b", "new/deep/c"] {
+        assert_eq!(
+            fs::read_to_string(home.path().join(directory).join("file")).unwrap(),
+            directory
+        );
+    }
+}
+
 #[test]
 fn a_directory_in_the_way_at_the_end_leaves_the_old_set() {
     let place = tempfile::tempdir().unwrap();

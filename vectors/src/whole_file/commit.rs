@@ -1,5 +1,6 @@
 //! Steps that others can see, and the way back.
 
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -27,7 +28,7 @@ impl Journal {
     pub(super) fn remove(&mut self, target: &Path) -> io::Result<()> {
         let old = Temporary::of(target)?;
         step()?;
-        std::fs::remove_file(target)?;
+        fs::remove_file(target)?;
         self.0.push(Step::Replaced(target.to_owned(), old));
         Ok(())
     }
@@ -47,11 +48,36 @@ impl Journal {
         Ok(())
     }
 
-    /// Gives a directory its name, which nothing has.
+    /// Gives a directory its name. Where another process made it meanwhile, for a set beside this one, what is in it
+    /// gets its name there.
     pub(super) fn put_directory(&mut self, directory: Temporary, target: &Path) -> io::Result<()> {
         step()?;
-        directory.rename(target).map_err(|(_, error)| error)?;
-        self.0.push(Step::MadeDirectory(target.to_owned()));
+        match directory.rename(target) {
+            Ok(()) => {
+                self.0.push(Step::MadeDirectory(target.to_owned()));
+                Ok(())
+            }
+            Err((directory, error)) if target.is_dir() => {
+                self.put_below(directory.path(), target, error)
+            }
+            Err((_, error)) => Err(error),
+        }
+    }
+
+    /// Directories only: a file in a directory that is there belongs to a set that is.
+    fn put_below(&mut self, from: &Path, target: &Path, taken: io::Error) -> io::Result<()> {
+        for entry in fs::read_dir(from)? {
+            let entry = entry?;
+            let (from, target) = (entry.path(), target.join(entry.file_name()));
+            if !from.is_dir() {
+                return Err(taken);
+            }
+            step()?;
+            match fs::rename(&from, &target) {
+                Ok(()) => self.0.push(Step::MadeDirectory(target)),
+                Err(taken) => self.put_below(&from, &target, taken)?,
+            }
+        }
         Ok(())
     }
 
@@ -59,7 +85,7 @@ impl Journal {
     pub(super) fn undo(self, cause: OutputError) -> OutputError {
         self.0.into_iter().rev().fold(cause, |cause, made| match made {
             Step::Made(path) => {
-                let _ = std::fs::remove_file(path);
+                let _ = fs::remove_file(path);
                 cause
             }
             Step::MadeDirectory(path) => {
