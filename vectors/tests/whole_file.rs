@@ -180,6 +180,9 @@ fn links_are_followed_and_stay() {
     assert!(at("link").is_symlink());
     WholeFile::create(at("null")).unwrap().fill("gone").unwrap();
     assert!(at("null").is_symlink());
+    let _socket = std::os::unix::net::UnixListener::bind(at("socket")).unwrap();
+    let error = WholeFile::create(at("socket")).unwrap_err();
+    assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
     let error = WholeFile::create(at("none")).unwrap_err();
     assert!(error.to_string().contains("which does not exist"), "{error}");
     let error = OutputSet::create(at("none/deep")).unwrap_err();
