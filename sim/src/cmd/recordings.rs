@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use vectors::whole_file::Draft;
-use vectors::{OutputError, OutputFile, OutputSet, Staging};
+use vectors::{OutputFile, OutputSet, Staging};
 
 use super::output;
 use crate::waves::WaveFormat;
@@ -25,16 +25,13 @@ impl Recordings {
         waves: Option<&Path>,
         inputs: &[PathBuf],
     ) -> anyhow::Result<Self> {
-        let format = waves.map(wave_format).transpose()?;
         let mut staging = Staging::apart_from(inputs);
-        let mut begin = |path| match staging.begin(path) {
-            Err(OutputError::Twice(_)) => {
-                bail!("--trace and --waves name the same file; give each its own")
-            }
-            begun => Ok(begun?),
-        };
-        let trace = trace.map(&mut begin).transpose()?;
-        let waves = waves.map(&mut begin).transpose()?;
+        let trace = trace.map(|path| staging.begin(path)).transpose()?;
+        if waves.is_some_and(|path| staging.has(path)) {
+            bail!("--trace and --waves name the same file; give each its own");
+        }
+        let format = waves.map(wave_format).transpose()?;
+        let waves = waves.map(|path| staging.begin(path)).transpose()?;
         if let (Some(WaveFormat::Fst), Some(waves)) = (format, &waves)
             && !waves.is_file()
         {

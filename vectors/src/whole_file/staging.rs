@@ -134,7 +134,13 @@ impl Staging {
         }
     }
 
-    /// The same for a path that must be that of a regular file.
+    /// Whether a file was begun that this path leads to.
+    #[must_use]
+    pub fn has(&self, path: &Path) -> bool {
+        regular(path).is_ok_and(|real| self.places.contains(&place(&real)))
+    }
+
+    /// As [`begin`](Self::begin), for a path that must be that of a regular file.
     ///
     /// # Errors
     /// As [`begin`](Self::begin).

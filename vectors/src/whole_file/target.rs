@@ -69,11 +69,13 @@ pub(super) fn find(path: &Path) -> Result<Target, OutputError> {
 
 /// The regular file that a path leads to, or the place where one can be made.
 pub(super) fn regular(path: &Path) -> Result<PathBuf, OutputError> {
-    let ends_in_name = !path.as_os_str().as_encoded_bytes().ends_with(b"/");
+    if path.file_name().is_none() {
+        return Err(OutputError::NoName(path.to_owned()));
+    }
     match fs::metadata(path) {
         Ok(found) if !found.is_file() => return Err(OutputError::NotAFile(path.to_owned())),
         Ok(_) => {}
-        Err(_) if path.file_name().is_none() || !ends_in_name => {
+        Err(_) if path.as_os_str().as_encoded_bytes().ends_with(b"/") => {
             return Err(OutputError::NoName(path.to_owned()));
         }
         Err(_) => return no_link(path).map(|()| path.to_owned()),
