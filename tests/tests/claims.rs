@@ -65,7 +65,7 @@ fn files_are_written_together() {
     let _said = bench.good("claims --out made");
     let names: Vec<String> =
         bench.tree("made").into_keys().map(|name| name.display().to_string()).collect();
-    assert_eq!(names, ["claims.csv", "claims.json", "claims.md"]);
+    assert_eq!(names, ["claims.csv", "claims.json", "claims.md", "claims.sha256"]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A bundle of vectors: stimulus, expected answers, ROM image, table and manifest.
 
 use std::collections::BTreeMap;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use hw_model::datapath::Signals;
@@ -9,7 +9,7 @@ use hw_model::design::Design;
 use thiserror::Error;
 
 use crate::case::{Sample, Strategy};
-use crate::checksum::{Checked, Checksum};
+use crate::checksum::Checksum;
 use crate::fault_table::write_faults;
 use crate::faults::compact::{MOST_INPUTS, inputs};
 use crate::faults::{Compact, OneByOne, Workers};
@@ -28,6 +28,9 @@ use crate::whole_file::{OutputError, OutputFile, OutputSet};
 /// The most vectors of one bundle, 2^22. The table of the `paper` preset has about 600 bytes a line,
 /// so this is some 2.5 GB.
 pub const MAX_VECTORS: u64 = 1 << 22;
+
+/// The name of the list of a bundle's files, `vectors.sha256`, without its end.
+pub const COMMAND: &str = "vectors";
 
 /// Why a bundle cannot be made.
 #[derive(Debug, Error)]
@@ -183,10 +186,23 @@ impl<'a> Bundle<'a> {
     /// # Errors
     /// When the directory or a file cannot be written.
     pub fn write_to(&self, directory: impl AsRef<Path>) -> Result<Manifest, BundleError> {
-        let mut set = OutputSet::create(directory)?;
+        let mut set = OutputSet::create(directory)?.listed(COMMAND)?;
         let manifest = self.stage(&mut set)?;
         set.commit()?;
         Ok(manifest)
+    }
+
+    /// Writes `vectors.csv` alone, and hands the writer back.
+    ///
+    /// # Errors
+    /// When the writer does.
+    pub fn write_table<W: Write>(&self, to: W) -> io::Result<W> {
+        let mut table = TableWriter::new(self.design, to)?;
+        for (index, sample) in (0..).zip(self.samples()) {
+            let passage = self.design.datapath().passage(sample.case.address, sample.case.x);
+            table.write(index, &sample, &passage)?;
+        }
+        table.finish()
     }
 
     /// The answer that is wrong in the negative control.
@@ -212,7 +228,7 @@ impl<'a> Bundle<'a> {
         }
         let (kinds, control) = self.stage_vectors(set, &words, &mut files)?;
         let manifest = self.manifest(words, files, kinds, control);
-        set.write(MANIFEST, manifest.to_json())?;
+        set.seal(MANIFEST, manifest.to_json())?;
         Ok(manifest)
     }
 
@@ -331,12 +347,12 @@ fn answer(passage: &[Signals]) -> [i64; 2] {
     passage.last().map_or([0; 2], |last| [last.status.bits().into(), last.intensity])
 }
 
-/// A file under way with its checksum, whose errors say which file it is.
-struct Begun(Checked<OutputFile>);
+/// A file under way, whose errors say which file it is.
+struct Begun(OutputFile);
 
 impl Begun {
     fn new(set: &mut OutputSet, name: &str) -> Result<Self, OutputError> {
-        set.file(name).map(|file| Self(Checked::new(file)))
+        set.file(name).map(Self)
     }
 
     fn header(
@@ -347,7 +363,7 @@ impl Begun {
         command: &str,
     ) -> Result<(), OutputError> {
         let header = Header { title, layout, words, command };
-        write_header(&mut self.0, &header).map_err(|cause| self.0.get_ref().error(cause))
+        write_header(&mut self.0, &header).map_err(|cause| self.0.error(cause))
     }
 
     fn word(
@@ -355,15 +371,18 @@ impl Begun {
         layout: &WordLayout,
         word: &impl std::fmt::LowerHex,
     ) -> Result<(), OutputError> {
-        write_word(&mut self.0, layout, word).map_err(|cause| self.0.get_ref().error(cause))
+        write_word(&mut self.0, layout, word).map_err(|cause| self.0.error(cause))
     }
 
-    fn keep(mut self, set: &mut OutputSet) -> Result<Checksum, OutputError> {
-        self.0.flush().map_err(|cause| self.0.get_ref().error(cause))?;
-        let (file, checksum) = self.0.finish();
-        set.keep(file)?;
-        Ok(checksum)
+    fn keep(self, set: &mut OutputSet) -> Result<Checksum, OutputError> {
+        set.keep(self.0)
     }
+}
+
+/// The names of the files of a bundle.
+pub fn names(strategy: Strategy) -> impl Iterator<Item = &'static str> {
+    let faults = (strategy == Strategy::Compact).then_some(FAULTS);
+    [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE, MANIFEST].into_iter().chain(faults)
 }
 
 /// The files that every bundle has, in `directory`, in the order in which they are written.

@@ -38,4 +38,4 @@ pub use kind::Kind;
 pub use manifest::Manifest;
 pub use stimulus_file::{Cycle, StimulusError, read_stimulus};
 pub use verify::{Verified, VerifyError, verify};
-pub use whole_file::{OutputError, OutputFile, OutputSet, WholeFile};
+pub use whole_file::{OutputError, OutputFile, OutputSet, Staging, WholeFile};

@@ -20,7 +20,7 @@ use crate::text_file::{self, TextProblem};
 #[non_exhaustive]
 pub enum VerifyError {
     /// A file is missing or cannot be read.
-    #[error("cannot read {}: {cause}; write the bundle again", path.display())]
+    #[error("the bundle is incomplete: cannot read {}: {cause}; write it again", path.display())]
     Io {
         /// The file.
         path: PathBuf,

@@ -4,7 +4,8 @@ use std::fs;
 use std::io::Write;
 use std::path::Path;
 
-use vectors::{OutputError, OutputSet, WholeFile};
+use vectors::whole_file::check_list;
+use vectors::{OutputError, OutputSet, Staging, WholeFile};
 
 fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).unwrap();
@@ -43,7 +44,9 @@ fn committed_files_are_all_there_and_nothing_else() {
         long.write_all(b"0123456789\n").unwrap();
     }
     set.keep(long).unwrap();
-    assert!(names(&directory).iter().all(|name| name.starts_with('.')), "nothing has its name yet");
+    let under_way = names(place.path());
+    assert!(under_way.iter().all(|name| name.starts_with(".blysk-")), "nothing has its name yet");
+    assert_eq!(under_way.len(), 1);
     let paths = set.commit().unwrap();
     assert_eq!(paths, [directory.join("short"), directory.join("long")]);
     assert_eq!(names(&directory), ["long", "short"]);
@@ -148,10 +151,138 @@ fn neither_a_device_nor_a_directory_is_replaced() {
         let error = set.file(name).unwrap_err();
         assert!(matches!(error, OutputError::NoName(_) | OutputError::NotAFile(_)), "{name}");
     }
-    #[cfg(unix)]
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_stay() {
+    use std::os::unix::fs::symlink;
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    fs::create_dir(at("real")).unwrap();
+    fs::write(at("real/file"), "old").unwrap();
+    for (link, to) in
+        [("link", "real/file"), ("again", "link"), ("null", "/dev/null"), ("none", "nowhere")]
     {
-        std::os::unix::fs::symlink("/dev/null", place.path().join("link")).unwrap();
-        let error = WholeFile::create(place.path().join("link")).unwrap_err();
-        assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
+        symlink(to, at(link)).unwrap();
     }
+    for link in ["link", "again"] {
+        WholeFile::create(at(link)).unwrap().fill(link).unwrap();
+        assert_eq!(fs::read_to_string(at("real/file")).unwrap(), link);
+        assert!(at(link).is_symlink() && names(&at("real")) == ["file"]);
+    }
+    let mut set = OutputSet::create(place.path()).unwrap();
+    set.write("link", "set").unwrap();
+    // A set is files; a stream is for one.
+    assert!(matches!(set.file("null").unwrap_err(), OutputError::NotAFile(_)));
+    set.commit().unwrap();
+    assert_eq!(fs::read_to_string(at("real/file")).unwrap(), "set");
+    assert!(at("link").is_symlink());
+    WholeFile::create(at("null")).unwrap().fill("gone").unwrap();
+    assert!(at("null").is_symlink());
+    let _socket = std::os::unix::net::UnixListener::bind(at("socket")).unwrap();
+    let error = WholeFile::create(at("socket")).unwrap_err();
+    assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
+    let error = WholeFile::create(at("none")).unwrap_err();
+    assert!(error.to_string().contains("which does not exist"), "{error}");
+    let error = OutputSet::create(at("none/deep")).unwrap_err();
+    assert!(matches!(error, OutputError::Dangling { .. }), "{error}");
+}
+
+#[test]
+fn a_set_in_sub_directories_is_listed_and_every_change_is_found() {
+    let home = tempfile::tempdir().unwrap();
+    let directory = home.path().join("set");
+    for text in ["first", "second"] {
+        let mut set = OutputSet::create(&directory).unwrap().listed("test").unwrap();
+        set.write("a", text).unwrap();
+        set.within("deep", |set| set.write("b", text)).unwrap();
+        set.seal("seal", text).unwrap();
+        set.commit().unwrap();
+        assert_eq!(names(&directory), ["a", "deep", "seal", "test.sha256"]);
+        assert_eq!(names(&directory.join("deep")), ["b"]);
+        assert_eq!(check_list(&directory, "test").unwrap(), ["a", "deep/b", "seal"]);
+    }
+    for (name, with) in [("a", "first"), ("deep/b", "first"), ("seal", ""), ("test.sha256", "?")] {
+        let path = directory.join(name);
+        let kept = fs::read(&path).unwrap();
+        fs::write(&path, with).unwrap();
+        let error = check_list(&directory, "test").unwrap_err().to_string();
+        assert!(error.contains(name), "{error}");
+        fs::remove_file(&path).unwrap();
+        let error = check_list(&directory, "test").unwrap_err().to_string();
+        assert!(error.contains("incomplete") && error.contains(name), "{error}");
+        fs::write(&path, kept).unwrap();
+    }
+    check_list(&directory, "test").unwrap();
+}
+
+#[test]
+fn neither_inputs_nor_outputs_are_written_over() {
+    let place = tempfile::tempdir().unwrap();
+    let at = |name: &str| place.path().join(name);
+    fs::write(at("in"), "kept").unwrap();
+    fs::hard_link(at("in"), at("other_name")).unwrap();
+    let inputs = [at("in")];
+    for output in ["in", "./in", "other_name"] {
+        let error = WholeFile::apart_from(&inputs, at(output)).unwrap_err();
+        assert!(matches!(error, OutputError::Input { .. }), "{error}");
+    }
+    let mut set = OutputSet::apart_from(&inputs, place.path()).unwrap();
+    assert!(matches!(set.file("in").unwrap_err(), OutputError::Input { .. }));
+    drop(set);
+    let set = OutputSet::apart_from(&inputs, place.path()).unwrap();
+    assert!(matches!(set.expect(["new/x", "in"]).unwrap_err(), OutputError::Input { .. }));
+    let mut staging = Staging::default();
+    let _one = staging.begin(&at("new/x")).unwrap();
+    let error = staging.begin(&at("./new/x")).unwrap_err();
+    assert!(matches!(error, OutputError::Twice(_)), "{error}");
+    drop(staging);
+    assert_eq!(names(place.path()), ["in", "other_name"]);
+}
+
+/// Two sets that need the same directory, and neither is in the other's way.
+#[test]
+fn a_directory_that_another_set_makes_meanwhile_is_shared() {
+    let home = tempfile::tempdir().unwrap();
+    let begun = |directory: &str| {
+        let mut set = OutputSet::create(home.path().join(directory)).unwrap();
+        set.write("file", directory).unwrap();
+        set
+    };
+    let sets = ["new/a", "new/b", "new/deep/c", "new/a"].map(begun);
+    let [a, b, c, again] = sets;
+    for set in [a, b, c] {
+        set.commit().unwrap();
+    }
+    let error = again.commit().unwrap_err().to_string();
+    assert!(error.contains("new") && error.contains("in the way"), "{error}");
+    assert_eq!(names(home.path()), ["new"]);
+    assert_eq!(names(&home.path().join("new")), ["a", "b", "deep"]);
+    for directory in ["new/a", "new/b", "new/deep/c"] {
+        assert_eq!(
+            fs::read_to_string(home.path().join(directory).join("file")).unwrap(),
+            directory
+        );
+    }
+}
+
+#[test]
+fn a_directory_in_the_way_at_the_end_leaves_the_old_set() {
+    let place = tempfile::tempdir().unwrap();
+    let begun = |text: &str| {
+        let mut set = OutputSet::create(place.path()).unwrap().listed("test").unwrap();
+        for name in ["a", "b", "c"] {
+            set.write(name, text).unwrap();
+        }
+        set
+    };
+    begun("old").commit().unwrap();
+    let set = begun("new");
+    fs::remove_file(place.path().join("c")).unwrap();
+    fs::create_dir(place.path().join("c")).unwrap();
+    let error = set.commit().unwrap_err();
+    assert!(matches!(error, OutputError::NotAFile(_)), "{error}");
+    assert_eq!(names(place.path()), ["a", "b", "c", "test.sha256"]);
+    assert_eq!(fs::read_to_string(place.path().join("a")).unwrap(), "old");
 }

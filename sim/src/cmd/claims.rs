@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::{Args as ClapArgs, ValueEnum};
-use vectors::OutputSet;
 
+use super::output;
 use super::table::{Cell, Format, Rows, write_folded};
 use super::{Out, Outcome};
 use crate::analysis::claims::{Claim, claims};
@@ -48,10 +48,14 @@ enum Shape {
     Markdown,
 }
 
+/// The files of `--out`.
+const FILES: [&str; 3] = ["claims.csv", "claims.json", "claims.md"];
+
 /// What docs/CLAIMS.md is made by.
 const COMMAND: &str = "blysk claims --format markdown";
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let set = args.out.as_deref().map(|out| output::set(out, "claims", &[], FILES)).transpose()?;
     let mut claims = claims()?;
     if let Some(name) = &args.claim {
         let names: Vec<&str> = claims.iter().map(|claim| claim.id).collect();
@@ -60,18 +64,18 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         }
         claims.retain(|claim| claim.id == name);
     }
-    if let Some(directory) = &args.out {
-        let mut set = OutputSet::create(directory)?;
+    if let Some(mut set) = set {
         let mut csv = Vec::new();
         all(&claims).csv(&mut csv)?;
-        set.write("claims.csv", csv)?;
-        set.write("claims.json", json(&claims)?)?;
-        set.write("claims.md", page(&claims, COMMAND)?)?;
+        let [table, object, text] = FILES;
+        set.write(table, csv)?;
+        set.write(object, json(&claims)?)?;
+        set.write(text, page(&claims, COMMAND)?)?;
         set.commit()?;
     }
     print(&claims, args, out)?;
     if let (Some(directory), Shape::Table) = (&args.out, args.format) {
-        writeln!(out, "\nwritten to {}: claims.csv, claims.json, claims.md", directory.display())?;
+        writeln!(out, "\nwritten to {}: {}", directory.display(), FILES.join(", "))?;
     }
     Ok(Outcome::Good)
 }

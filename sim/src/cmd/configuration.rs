@@ -49,6 +49,11 @@ impl MaybeConfiguration {
         self.stated().option()
     }
 
+    /// The files that it is read from.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.config.iter().cloned().collect()
+    }
+
     fn stated(&self) -> Configuration {
         Configuration { preset: self.preset.clone(), config: self.config.clone() }
     }
@@ -59,6 +64,11 @@ impl Configuration {
     pub(super) fn design(&self) -> anyhow::Result<Design> {
         let (config, origin) = self.load()?;
         Design::new(config).with_context(|| origin)
+    }
+
+    /// The files that it is read from.
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.config.iter().cloned().collect()
     }
 
     /// The option as it would be typed, for the headers of generated files.

@@ -10,11 +10,10 @@ use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use hw_model::quantise::{decimal, real};
 use hw_model::rounding::Rounding;
-use vectors::whole_file::WholeFile;
 
 use super::report::{Bar, bound};
 use super::table::{Cell, Format, Rows, digits, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::analysis::sizing::{
     Breaks, Considered, Fewer, Hardware, Over, Request, Sized, Verdict, Witness, samples, size,
 };
@@ -52,7 +51,7 @@ pub(super) struct Args {
     /// How many designs are narrowed.
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=64))]
     finalists: u8,
-    /// Write the configuration to this file.
+    /// Write the configuration to this file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// How to print.
@@ -80,14 +79,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     };
     check(&request)?;
     // Begun before the work, so that an unwritable place is found at once.
-    let file = args.out.as_ref().map(WholeFile::create).transpose()?;
+    let file = output::file(args.out.as_ref(), &[])?;
     let bar = Bar::new(Some(samples(&request)));
     let sized = size(&request, &bar)?;
     bar.finish();
-    if let Some(mut file) = file {
-        let text = sized.design.config().to_json();
-        file.write_all(text.as_bytes()).map_err(|cause| file.error(cause))?;
-        file.commit()?;
+    if output::fill(file, sized.design.config().to_json())? {
+        return Ok(Outcome::Good);
     }
     if args.format != Format::Table {
         witnesses(&sized).print(out, args.format, 17)?;

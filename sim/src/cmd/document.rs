@@ -8,10 +8,9 @@ use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::presets;
-use vectors::OutputSet;
 
 use super::configuration::{find_preset, load_config};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::document::{COMMON, Subject, stage};
 
 /// Write the hardware designers' reference: ports, ROM map, registers, lines, timing.
@@ -76,7 +75,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     };
     // The place is left out: the files are the same wherever they stand.
     let command = format!("blysk document {chosen}");
-    let mut set = OutputSet::create(&args.out)?;
+    let inputs: Vec<PathBuf> = args.subject.config.iter().cloned().collect();
+    let mut set = output::set(&args.out, "document", &inputs, [COMMON])?;
     let files = stage(&subjects, &command, &mut set)?;
     set.commit()?;
     let place = args.out.display();

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::{Args as ClapArgs, ValueEnum};
-use vectors::whole_file::WholeFile;
 
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::scene::{Knot, Normals, triangles};
 
 /// Make a mesh for scenes, as a Wavefront OBJ file.
@@ -40,7 +39,7 @@ pub(super) struct Args {
     /// What to write.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Write to this file.
+    /// Write to this file; - is standard output.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -76,6 +75,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         "blysk mesh --kind torus-knot --around {around} --through {through} --along {along} \
          --sides {sides} --tube {tube}"
     );
+    let file = output::file(args.out.as_ref(), &[])?;
     let text = knot.to_obj(&origin);
     let Some(path) = &args.out else {
         out.write_all(text.as_bytes())?;
@@ -84,9 +84,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     // With six decimals a very fine mesh has corners that coincide: what is written can be read.
     let found = triangles(&text, Normals::Smooth)
         .map_err(|error| anyhow::anyhow!("{}{error}; use fewer corners", path.display()))?;
-    let mut file = WholeFile::create(path)?;
-    file.write_all(text.as_bytes()).map_err(|cause| file.error(cause))?;
-    file.commit()?;
+    if output::fill(file, text)? {
+        return Ok(Outcome::Good);
+    }
     writeln!(out, "{} triangles, written to {}", found.len(), path.display())?;
     Ok(Outcome::Good)
 }

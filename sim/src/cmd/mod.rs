@@ -1,7 +1,7 @@
 //! The `blysk` command line: the only place that knows clap and paths.
 //!
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
-//! not the expected one; 2 a usage, configuration, input or output error.
+//! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
 
 mod certify;
 mod check;
@@ -11,15 +11,18 @@ mod configuration;
 mod design;
 mod document;
 mod mesh;
+mod output;
 mod pareto;
 mod pareto_tables;
 mod presets;
+mod recordings;
 mod refine;
 mod render;
 mod report;
 mod rom;
 mod rtl;
 mod scene;
+mod signals;
 mod simulate;
 mod specialise;
 mod stability;
@@ -98,6 +101,10 @@ fn named(error: io::Error) -> io::Error {
 /// Parses the command line, runs the command, and reports its errors.
 #[must_use]
 pub fn main() -> ExitCode {
+    if let Err(error) = signals::watch() {
+        let _ = writeln!(io::stderr(), "error: cannot watch for signals: {error}");
+        return ExitCode::from(2);
+    }
     let cli = Cli::parse();
     let mut out = BufWriter::new(Stdout(io::stdout().lock()));
     let result = run(cli.command, &mut out).and_then(|outcome| match out.flush() {

@@ -8,12 +8,11 @@ use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use vectors::text_file::{self, PARETO_TABLE, SYNTHESIS_TABLE, foreign_separator};
-use vectors::whole_file::OutputSet;
 
 use super::pareto_tables as tables;
 use super::report::Bar;
 use super::table::write_folded;
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::analysis::pareto::check::differences;
 use crate::analysis::pareto::contender::Contenders;
 use crate::analysis::pareto::inputs::Inputs;
@@ -92,7 +91,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     let (synthesis, origin) = synthesised(args)?;
     // Made before the work, so that an unwritable place is found at once.
-    let set = args.out.as_ref().map(OutputSet::create).transpose()?;
+    let synth = args.synth.clone().unwrap_or_else(|| PathBuf::from(SYNTH));
+    let set = args
+        .out
+        .as_deref()
+        .map(|out| output::set(out, "pareto", &[synth], files::TABLES))
+        .transpose()?;
     let timing =
         (!args.no_timing).then_some(TimingOptions { rounds: args.rounds, seed: args.seed });
     let bar = Bar::new(Some(inputs.count()));

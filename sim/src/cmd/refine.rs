@@ -9,13 +9,12 @@ use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::rom::FieldName;
-use vectors::whole_file::WholeFile;
 
 use super::configuration::Configuration;
 use super::report::Bar;
 use super::rom::addresses;
 use super::table::{Cell, Format, Rows, digits, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 
 /// Search the neighbouring ROM integers for those with the least error through the data path.
@@ -34,7 +33,7 @@ use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
-    /// Write the configuration with the steps to this file.
+    /// Write the configuration with the steps to this file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Search only these rows.
@@ -67,7 +66,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     let addresses = addresses(&design, args.exponents.as_ref())?;
     // Begun before the work, so that an unwritable place is found at once.
-    let file = args.out.as_ref().map(WholeFile::create).transpose()?;
+    let file = output::file(args.out.as_ref(), &args.configuration.files())?;
     let range = match args.range {
         Over::Fitted => Range::Fitted,
         Over::Polynomial => Range::Polynomial,
@@ -76,10 +75,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let bar = Bar::new(Some(samples(&design, &addresses, options)));
     let refined = refine(&design, &addresses, options, &bar)?;
     bar.finish();
-    if let Some(mut file) = file {
-        let text = refined.config().to_json();
-        file.write_all(text.as_bytes()).map_err(|cause| file.error(cause))?;
-        file.commit()?;
+    if output::fill(file, refined.config().to_json())? {
+        return Ok(Outcome::Good);
     }
     let ulp = design.config().output.ulp();
     rows(&refined.found, ulp).print(out, args.format, 6)?;

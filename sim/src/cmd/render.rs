@@ -8,13 +8,12 @@ use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use rayon::prelude::*;
-use vectors::whole_file::OutputSet;
 
 use super::configuration::Configuration;
 use super::report::Bar;
-use super::scene::{counted, load, resized, size};
+use super::scene::{Loaded, counted, load, resized, size};
 use super::table::{Cell, Format, Rows, digits, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::render::{
     Answers, Codes, Cycles, Part, Picture, Pipeline, Samples, Which, by_material, difference,
     encode, heat_map, methods, reference, samples, shade,
@@ -68,11 +67,14 @@ const LATEST_ROUND: Duration = Duration::from_millis(400);
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let scene_name = || args.scene.display().to_string();
-    let mut scene = load(&args.scene)?;
+    let Loaded { mut scene, files: read } = load(&args.scene)?;
     resized(&mut scene, args.size)?;
     let pipeline = Pipeline::new(&design, &scene).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
-    let set = args.out.as_ref().map(OutputSet::create).transpose()?;
+    let inputs = [read, args.configuration.files()].concat();
+    let names = files::PICTURES.into_iter().chain(files::TABLES);
+    let set =
+        args.out.as_deref().map(|out| output::set(out, "render", &inputs, names)).transpose()?;
     let begun = Instant::now();
     let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
     let bar = Bar::counting(Some(rays), "pixels");

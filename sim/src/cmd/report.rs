@@ -1,7 +1,7 @@
 //! `blysk report`: the error of every exponent, and the verdict.
 
 use std::io::{IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
@@ -9,11 +9,11 @@ use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::presets;
 use indicatif::{ProgressBar, ProgressStyle};
-use vectors::whole_file::OutputSet;
+use vectors::OutputSet;
 
 use super::configuration::{find_preset, load_config};
 use super::table::{Cell, Format, Rows, digits, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::analysis::error_report::{
     ErrorReport, ErrorRow, Options, Progress, error_report, exhaustive_samples,
 };
@@ -83,7 +83,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         (None, None) => bail!("say --preset NAME, --config FILE or --all-presets"),
     };
     let design = Design::new(config).with_context(|| origin)?;
-    let report = measure(args, &design, args.out.as_deref())?;
+    let inputs: Vec<PathBuf> = args.subject.config.iter().cloned().collect();
+    let begin = |out| output::set(out, "report", &inputs, files::names());
+    let mut set = args.out.as_deref().map(begin).transpose()?;
+    let report = measure(args, &design, set.as_mut())?;
+    commit(set)?;
     match args.format {
         Format::Table => summary(&design, &report, out)?,
         format => all_rows(std::slice::from_ref(&report), false).print(out, format, 17)?,
@@ -103,8 +107,17 @@ fn outcome(holds: bool) -> Outcome {
     if holds { Outcome::Good } else { Outcome::Fails }
 }
 
-/// Measures, and writes the files if there is a place for them.
-fn measure(args: &Args, design: &Design, directory: Option<&Path>) -> anyhow::Result<ErrorReport> {
+fn commit(set: Option<OutputSet>) -> anyhow::Result<()> {
+    set.map(OutputSet::commit).transpose()?;
+    Ok(())
+}
+
+/// Measures, and adds the files if there is a place for them.
+fn measure(
+    args: &Args,
+    design: &Design,
+    set: Option<&mut OutputSet>,
+) -> anyhow::Result<ErrorReport> {
     let curves = curves_exponent(args.curves, design)?;
     let samples = exhaustive_samples(design);
     if args.exhaustive && samples > MOST_SAMPLES {
@@ -113,15 +126,12 @@ fn measure(args: &Args, design: &Design, directory: Option<&Path>) -> anyhow::Re
              narrower input format or fewer exponents"
         );
     }
-    // Made before the work, so that an unwritable place is found at once.
-    let set = directory.map(OutputSet::create).transpose()?;
     let options = Options { bound: args.bound, exhaustive: args.exhaustive };
     let bar = Bar::new(args.exhaustive.then_some(samples));
     let report = error_report(design, options, &bar)?;
     bar.finish();
-    if let Some(mut set) = set {
-        files::write(&mut set, design, &report, curves)?;
-        set.commit()?;
+    if let Some(set) = set {
+        files::write(set, design, &report, curves)?;
     }
     Ok(report)
 }
@@ -267,12 +277,20 @@ fn greatest(report: &ErrorReport, of: fn(&ErrorRow) -> f64) -> Option<&ErrorRow>
 
 /// Every preset: files for each, and one table.
 fn every_preset(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let names = presets::ALL
+        .into_iter()
+        .flat_map(|preset| files::names().map(move |name| format!("{}/{name}", preset.name)));
+    let begin = |out| output::set(out, "report", &[], names);
+    let mut set = args.out.as_deref().map(begin).transpose()?;
     let mut reports = Vec::new();
     for preset in presets::ALL {
         let design = Design::new(preset.config()?).with_context(|| preset.name)?;
-        let directory = args.out.as_ref().map(|out| out.join(preset.name));
-        reports.push(measure(args, &design, directory.as_deref())?);
+        reports.push(match &mut set {
+            Some(set) => set.within(preset.name, |set| measure(args, &design, Some(set)))?,
+            None => measure(args, &design, None)?,
+        });
     }
+    commit(set)?;
     if args.format == Format::Table {
         comparison(&reports, out)?;
         if let Some(directory) = &args.out {

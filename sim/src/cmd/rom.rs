@@ -9,9 +9,9 @@ use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::quantise::{decimal, real};
 use hw_model::rom::{Field, Place};
-use vectors::whole_file::OutputSet;
 
 use super::configuration::Configuration;
+use super::output;
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
 
@@ -30,7 +30,7 @@ pub(super) struct Args {
     /// How to print.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Also write rom.csv and rom.json to this directory.
+    /// Also write rom.csv and rom.json to this directory; - prints, and writes none.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -39,14 +39,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let addresses = addresses(&design, args.exponents.as_ref())?;
     let rows = all_fields(&design, &addresses);
+    let directory = args.out.as_ref().filter(|path| !output::is_standard_output(path));
+    let names = ["rom.csv", "rom.json"];
     // Files first: nothing is printed where they cannot be written, and `| head` does not stop them.
-    if let Some(directory) = &args.out {
-        let mut set = OutputSet::create(directory)?;
+    if let Some(directory) = directory {
+        let mut set = output::set(directory, "rom", &args.configuration.files(), names)?;
         let (mut csv, mut json) = (Vec::new(), Vec::new());
         rows.csv(&mut csv)?;
         rows.json(&mut json)?;
-        set.write("rom.csv", &csv)?;
-        set.write("rom.json", &json)?;
+        let [table, object] = names;
+        set.write(table, &csv)?;
+        set.write(object, &json)?;
         set.commit()?;
     }
     if args.format == Format::Table {

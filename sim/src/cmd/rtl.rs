@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
-use vectors::{Bundle, OutputSet, Strategy, rtl};
+use vectors::{Bundle, Strategy, rtl};
 
 use super::configuration::Configuration;
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 
 /// Write the RTL with its testbench, vectors and a Makefile that runs them.
 ///
@@ -57,8 +57,9 @@ impl Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let command = args.command();
+    let inputs = args.configuration.files();
+    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(args.strategy))?;
     let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
-    let mut set = OutputSet::create(&args.out)?;
     let manifest = rtl::stage(&bundle, &args.dut, &command, &mut set)?;
     set.commit()?;
     let place = names::shell(&args.out);

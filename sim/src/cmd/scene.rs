@@ -36,7 +36,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         out.write_all(schema().as_bytes())?;
         return Ok(Outcome::Good);
     };
-    let scene = load(path)?;
+    let scene = load(path)?.scene;
     rows(&scene).print(out, args.format, 6)?;
     if matches!(args.format, Format::Table) {
         let (image, lights) = (&scene.image, scene.lights.len());
@@ -78,13 +78,25 @@ pub(super) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
+/// A scene that was read.
+pub(super) struct Loaded {
+    pub(super) scene: Scene,
+    /// The files that it was read from: its own, and those of its meshes.
+    pub(super) files: Vec<PathBuf>,
+}
+
 /// Reads a scene. Paths of meshes start at its directory.
-pub(super) fn load(path: &Path) -> anyhow::Result<Scene> {
+pub(super) fn load(path: &Path) -> anyhow::Result<Loaded> {
     let shown = path.display();
     let text = text_file::read(path, SCENE)?;
     let directory = path.parent().unwrap_or(Path::new(""));
-    let mesh = |file: &str| Ok(text_file::text(&directory.join(file), MESH)?);
-    Scene::from_json(&text, &mut { mesh }).with_context(|| shown.to_string())
+    let mut files = vec![path.to_owned()];
+    let scene = Scene::from_json(&text, &mut |file| {
+        let mesh = directory.join(file);
+        files.push(mesh.clone());
+        Ok(text_file::text(&mesh, MESH)?)
+    });
+    Ok(Loaded { scene: scene.with_context(|| shown.to_string())?, files })
 }
 
 /// A size as `--size` has it: `1920x1080`.

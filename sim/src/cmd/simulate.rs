@@ -1,20 +1,20 @@
 //! `blysk simulate`: a stimulus through the clocked pipeline.
 
-use std::io::{self, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 
-use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
-use vectors::{Cycle as StimulusLine, WholeFile, read_stimulus};
+use vectors::{Cycle as StimulusLine, read_stimulus};
 
 use super::configuration::Configuration;
+use super::recordings::{Recordings, Target};
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus, settle};
 use crate::trace::TraceWriter;
-use crate::waves::{SAVE_FILE, WaveFormat, WaveWriter, save_file};
+use crate::waves::{WaveFormat, WaveWriter};
 
 /// Run a stimulus through the clocked pipeline; record every register, every cycle.
 ///
@@ -31,7 +31,8 @@ pub(super) struct Args {
     /// The stimulus.
     #[arg(long, value_name = "FILE")]
     stimulus: PathBuf,
-    /// Write every port and register of every cycle to this CSV file.
+    /// Write every port and register of every cycle to this CSV file; - is standard output, which then has nothing
+    /// else.
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
     /// Write waves to this file, which ends in .vcd, or in .fst for a small part of the size; and beside it
@@ -49,63 +50,26 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let datapath = design.datapath();
+    let inputs = [vec![args.stimulus.clone()], args.configuration.files()].concat();
+    let mut recordings = match &args.out {
+        None => Recordings::of_files(args.trace.as_deref(), args.waves.as_deref(), &inputs)?,
+        Some(directory) => Recordings::in_directory(directory, &inputs)?,
+    };
     let stimulus = read_stimulus(&args.stimulus, design.rom(), design.config().input)?;
-    let (trace, waves) = match &args.out {
-        None => (args.trace.clone(), args.waves.clone()),
-        Some(directory) => (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd"))),
-    };
-    let save = waves.as_ref().map(|waves| waves.with_extension(SAVE_FILE));
-    let same = |other: &Option<PathBuf>| {
-        trace.is_some() && trace.as_deref().map(place) == other.as_deref().map(place)
-    };
-    if same(&waves) {
-        bail!("--trace and --waves name the same file; give each its own");
-    }
-    if same(&save) {
-        bail!("--trace names the save file that comes with --waves; give it another name");
-    }
-    let format = waves.as_deref().map(wave_format).transpose()?;
-    // Nothing gets its name before the run is over.
-    let mut trace = trace.map(WholeFile::create).transpose()?;
     let name = &design.config().name;
-    let shown = waves.as_deref().map(|waves| save_file(name, datapath, waves));
-    let mut waves = waves.map(WholeFile::create).transpose()?;
-    let mut save = save.map(WholeFile::create).transpose()?;
-    if let Some((file, text)) = save.as_mut().zip(shown) {
-        file.write_all(text.as_bytes()).map_err(|error| file.error(error))?;
-    }
-    let mut recorders = Recorders::new(trace.as_mut(), format.zip(waves.as_mut()), name, datapath)?;
+    recordings.save(name, datapath)?;
+    let (trace, waves) = recordings.targets();
+    let mut recorders = Recorders::new(trace, waves, name, datapath)?;
     let mut pipeline = Pipeline::new(datapath);
     let counts =
         run_stimulus(&mut pipeline, stimulus.iter().map(|line| Ok(cycle(line))), |cycle| {
             recorders.cycle(cycle)
         })?;
     settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
-    for file in [trace, waves, save].into_iter().flatten() {
-        file.commit()?;
+    if !recordings.commit()? {
+        print(&counts, datapath.rank_count(), args.format, out)?;
     }
-    print(&counts, datapath.rank_count(), args.format, out)?;
     Ok(Outcome::Good)
-}
-
-/// The format that the end of a file's name asks for.
-fn wave_format(path: &Path) -> anyhow::Result<WaveFormat> {
-    let asked = path.extension().unwrap_or_default();
-    let found = WaveFormat::ALL.into_iter().find(|format| asked == format.extension());
-    found.with_context(|| {
-        format!("--waves {}: give the file a name that ends in .vcd or .fst", path.display())
-    })
-}
-
-/// Where a path leads, however it is written: the file need not be there yet.
-fn place(path: &Path) -> PathBuf {
-    let parent = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let parent = parent.canonicalize().or_else(|_| std::path::absolute(parent));
-    let name = path.file_name().unwrap_or_default();
-    parent.map_or_else(|_| path.to_owned(), |parent| parent.join(name))
 }
 
 fn cycle(line: &StimulusLine) -> StimulusCycle {
@@ -119,40 +83,16 @@ struct Recorders<'a> {
     waves: Option<WaveWriter<'a>>,
 }
 
-/// A file whose errors say which file it is.
-struct Target<'a>(&'a mut WholeFile);
-
-impl Target<'_> {
-    fn named(&self, error: io::Error) -> io::Error {
-        io::Error::new(error.kind(), self.0.error(error))
-    }
-}
-
-impl Write for Target<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.write(bytes).map_err(|error| self.named(error))
-    }
-    fn flush(&mut self) -> io::Result<()> {
-        self.0.flush().map_err(|error| self.named(error))
-    }
-}
-
-impl Seek for Target<'_> {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.0.seek(to).map_err(|error| self.named(error))
-    }
-}
-
 impl<'a> Recorders<'a> {
     fn new(
-        trace: Option<&'a mut WholeFile>,
-        waves: Option<(WaveFormat, &'a mut WholeFile)>,
+        trace: Option<Target<'a>>,
+        waves: Option<(WaveFormat, Target<'a>)>,
         name: &str,
         datapath: &Datapath,
     ) -> anyhow::Result<Self> {
-        let trace = trace.map(|file| TraceWriter::new(Target(file), datapath)).transpose()?;
+        let trace = trace.map(|file| TraceWriter::new(file, datapath)).transpose()?;
         let waves = waves
-            .map(|(format, file)| WaveWriter::new(format, Target(file), name, datapath))
+            .map(|(format, file)| WaveWriter::new(format, file, name, datapath))
             .transpose()?;
         Ok(Self { trace, waves })
     }

@@ -8,15 +8,16 @@ use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::rtl::TOP;
-use vectors::text_file::{self, CERTIFICATE};
-use vectors::{Bundle, OutputSet, Strategy, rtl};
+use vectors::text_file;
+use vectors::whole_file::{ListError, check_list};
+use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
 
 use super::configuration::MaybeConfiguration;
 use super::report::Bar;
-use super::scene::load;
+use super::scene::{Loaded, load};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::render::{Part, Pipeline, Samples, Which, samples};
 use crate::scene::Scene;
 use crate::specialise::{
@@ -70,7 +71,28 @@ pub(super) struct Args {
     format: Format,
 }
 
+/// Whose list the files are on.
+const COMMAND: &str = "specialise";
+/// The files of a set; hardware has directories of its own.
+const CONFIGURATION: &str = "configuration.json";
+const CERTIFICATE: &str = "certificate.json";
+const LEFT_OUT: [(&str, Format); 2] =
+    [("left_out.csv", Format::Csv), ("left_out.json", Format::Json)];
+const RTL: &str = "rtl";
+const SOURCE_RTL: &str = "source_rtl";
+
 impl Args {
+    /// The names of the files, as far as they are known before the work.
+    fn names(&self) -> impl Iterator<Item = String> {
+        let hardware = [RTL].into_iter().chain(self.synth.then_some(SOURCE_RTL));
+        let hardware = hardware.flat_map(|directory| {
+            rtl::names(Strategy::Mixed).map(move |name| format!("{directory}/{name}"))
+        });
+        let tables = LEFT_OUT.map(|(name, _)| name);
+        let own = [CONFIGURATION, CERTIFICATE].into_iter().chain(tables).map(str::to_owned);
+        own.chain(hardware)
+    }
+
     /// What made the files, and not where they went.
     fn command(&self) -> String {
         let scene = self.scene.as_ref().and_then(|path| path.file_name()).unwrap_or_default();
@@ -86,17 +108,20 @@ impl Args {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
-    let scene = args.scene.as_ref().map(|path| load(path)).transpose()?;
+    let loaded = args.scene.as_ref().map(|path| load(path)).transpose()?;
     if let Some(path) = &args.check {
-        return check(path, scene.as_ref(), out);
+        return check(path, loaded.as_ref().map(|loaded| &loaded.scene), out);
     }
-    let Some(scene) = scene else { bail!("give a scene") };
+    let Some(Loaded { scene, files }) = loaded else { bail!("give a scene") };
     let Some(source) = args.configuration.design()? else {
         bail!("say --preset NAME or --config FILE");
     };
+    let inputs = [files, args.configuration.files()].concat();
+    let begin = |out| output::set(out, COMMAND, &inputs, args.names());
+    let set = args.out.as_deref().map(begin).transpose()?;
     let mut made = Made::new(args, &scene, &source)?;
-    if let Some(directory) = &args.out {
-        made.write(args, &source, directory)?;
+    if let Some(set) = set {
+        made.write(args, &source, set)?;
     }
     match args.format {
         Format::Table => made.print(args, &scene, out)?,
@@ -158,29 +183,32 @@ impl Made {
         table
     }
 
-    fn write(&mut self, args: &Args, source: &Design, directory: &Path) -> anyhow::Result<()> {
-        let mut set = OutputSet::create(directory)?;
-        hardware(&self.specialised, args, &directory.join("rtl"))?;
+    fn write(&mut self, args: &Args, source: &Design, mut set: OutputSet) -> anyhow::Result<()> {
+        set.within(RTL, |set| hardware(&self.specialised, args, set))?;
+        set.within(SOURCE_RTL, |set| {
+            // Of another source, it would not be what this was made of.
+            rtl::names(Strategy::Mixed).for_each(|name| set.obsolete(name));
+            if args.synth { hardware(source, args, set) } else { Ok(()) }
+        })?;
         if args.synth {
-            hardware(source, args, &directory.join("source_rtl"))?;
-            self.synthesise(directory)?;
+            self.synthesise(source)?;
         }
-        set.write("configuration.json", self.specialised.config().to_json())?;
-        for (name, format) in [("left_out.csv", Format::Csv), ("left_out.json", Format::Json)] {
+        set.write(CONFIGURATION, self.specialised.config().to_json())?;
+        for (name, format) in LEFT_OUT {
             let mut text = Vec::new();
             self.table().print(&mut text, format, 6)?;
             set.write(name, text)?;
         }
         // It vouches for the rest.
-        set.write("certificate.json", self.certificate.to_json())?;
+        set.seal(CERTIFICATE, self.certificate.to_json())?;
         set.commit()?;
         Ok(())
     }
 
     /// What Yosys counts joins what was left out.
-    fn synthesise(&mut self, directory: &Path) -> anyhow::Result<()> {
-        let before = synthesis::counts(&directory.join("source_rtl"))?;
-        let after = synthesis::counts(&directory.join("rtl"))?;
+    fn synthesise(&mut self, source: &Design) -> anyhow::Result<()> {
+        let before = synthesis::counts(source)?;
+        let after = synthesis::counts(&self.specialised)?;
         for (name, (before, after)) in synthesis::NAMES.iter().zip(before.into_iter().zip(after)) {
             let why = "Yosys, synth_ecp5, without pins".to_owned();
             self.left_out.push(LeftOut { part: (*name).to_owned(), before, after, why });
@@ -270,18 +298,30 @@ impl Made {
 }
 
 /// The RTL of a design with its testbench and vectors.
-fn hardware(design: &Design, args: &Args, directory: &Path) -> anyhow::Result<()> {
+fn hardware(design: &Design, args: &Args, set: &mut OutputSet) -> Result<(), BundleError> {
     let command = args.command();
     let bundle = Bundle::new(design, Strategy::Mixed, args.count, args.seed, &command)?;
-    let mut set = OutputSet::create(directory)?;
-    rtl::stage(&bundle, TOP, &command, &mut set)?;
-    set.commit()?;
-    Ok(())
+    rtl::stage(&bundle, TOP, &command, set).map(drop)
+}
+
+/// How many files stand beside a certificate that were written with it, each as it was then; nothing where it stands
+/// alone.
+fn written_with(certificate: &Path) -> Result<Option<usize>, ListError> {
+    let directory = certificate.parent().unwrap_or(Path::new(""));
+    let beside = [CONFIGURATION, RTL].iter().any(|name| directory.join(name).exists());
+    match check_list(directory, COMMAND) {
+        Ok(names) => {
+            let named = |name: &String| certificate.file_name() == Some(name.as_ref());
+            Ok(names.iter().any(named).then(|| names.len() - 1))
+        }
+        Err(ListError::NoList { .. }) if !beside => Ok(None),
+        Err(refused) => Err(refused),
+    }
 }
 
 fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
-    let text = text_file::read(path, CERTIFICATE)?;
+    let text = text_file::read(path, text_file::CERTIFICATE)?;
     let bar = Bar::new(None);
     let held = Certificate::from_json(&text).and_then(|certificate| {
         certificate.check(&bar)?;
@@ -292,10 +332,25 @@ fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Ou
     });
     bar.finish();
     match held {
-        Ok(certificate) => {
-            write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;
-            Ok(Outcome::Good)
-        }
+        Ok(certificate) => match written_with(path) {
+            Ok(files) => {
+                write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;
+                write_folded(
+                    out,
+                    &match files {
+                        Some(count) => {
+                            format!("The {count} files beside it are those written with it.")
+                        }
+                        None => "It stands alone: files of hardware were not looked at.".to_owned(),
+                    },
+                )?;
+                Ok(Outcome::Good)
+            }
+            Err(refused) => {
+                write_folded(out, &format!("{shown} does not hold: {refused}"))?;
+                Ok(Outcome::Fails)
+            }
+        },
         Err(refused) => {
             write_folded(out, &format!("{shown} does not hold: {refused}"))?;
             Ok(Outcome::Fails)

@@ -14,7 +14,7 @@ use super::configuration::MaybeConfiguration;
 use super::report::Bar;
 use super::stability_tables as tables;
 use super::table::{Format, write_folded};
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::analysis::stability::coefficients::coefficient_losses;
 use crate::analysis::stability::conditioning::conditioning;
 use crate::analysis::stability::edges::edge_report;
@@ -99,7 +99,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         None => Vec::new(),
     };
     // Made before the work, so that an unwritable place is found at once.
-    let set = args.out.as_ref().map(OutputSet::create).transpose()?;
+    let inputs = args.configuration.files();
+    let begin = |out| output::set(out, "stability", &inputs, names(args.part));
+    let set = args.out.as_deref().map(begin).transpose()?;
     let mut session = Session { format: args.format, set, text: Vec::new(), names: Vec::new() };
     let mut holds = true;
     if args.part.has(Part::Coefficients) {
@@ -128,6 +130,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     session.finish(args, out)?;
     Ok(if holds { Outcome::Good } else { Outcome::Fails })
+}
+
+/// The names of what the parts write first.
+fn names(asked: Part) -> impl Iterator<Item = String> {
+    let parts =
+        Part::value_variants().iter().filter(move |&&part| part != Part::All && asked.has(part));
+    let names = parts.filter_map(Part::to_possible_value);
+    names.flat_map(|part| ["csv", "json"].map(|end| format!("{}.{end}", part.get_name())))
 }
 
 fn check(args: &Args, design: Option<&Design>) -> anyhow::Result<()> {

@@ -1,12 +1,14 @@
 //! What Yosys makes of a directory of RTL, where there is a Yosys.
 
-use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, bail};
+use hw_model::design::Design;
 use hw_model::rtl::{SOURCES, TOP};
 use serde_json::Value;
-use vectors::rtl::PACKAGE;
+use vectors::rtl::{self, PACKAGE};
+use vectors::whole_file::Scratch;
+use vectors::{Bundle, OutputSet, Strategy};
 
 /// What is counted: a name, and the cells with how many of it each is. As `scripts/synth.py` counts for this family.
 const COUNTS: [(&str, &[(&str, u64)]); 4] = [
@@ -19,8 +21,13 @@ const COUNTS: [(&str, &[(&str, u64)]); 4] = [
 /// The names of what is counted.
 pub(super) const NAMES: [&str; COUNTS.len()] = [COUNTS[0].0, COUNTS[1].0, COUNTS[2].0, COUNTS[3].0];
 
-/// Synthesises the RTL of a directory for an ECP5, and counts.
-pub(super) fn counts(directory: &Path) -> anyhow::Result<[u64; COUNTS.len()]> {
+/// Synthesises the RTL of a design for an ECP5, and counts.
+pub(super) fn counts(design: &Design) -> anyhow::Result<[u64; COUNTS.len()]> {
+    let scratch = Scratch::new().context("cannot make a directory for yosys")?;
+    let directory = scratch.path();
+    let mut set = OutputSet::create(directory)?;
+    rtl::stage(&Bundle::new(design, Strategy::Mixed, 1, 1, "")?, TOP, "", &mut set)?;
+    set.commit()?;
     let sources = SOURCES.map(|(name, _)| name).join(" ");
     let script = format!(
         "read_verilog -sv {PACKAGE} {sources}; synth_ecp5 -top {TOP}; tee -q -o /dev/stdout stat -json"
@@ -30,7 +37,7 @@ pub(super) fn counts(directory: &Path) -> anyhow::Result<[u64; COUNTS.len()]> {
     let output = command.output().context("cannot run yosys, which --synth asks for")?;
     let text = String::from_utf8_lossy(&output.stdout);
     if !output.status.success() {
-        bail!("yosys in {}: {}", directory.display(), String::from_utf8_lossy(&output.stderr));
+        bail!("yosys: {}", String::from_utf8_lossy(&output.stderr));
     }
     let begin = text.find('{').context("yosys counted nothing")?;
     let mut found = serde_json::Deserializer::from_str(&text[begin..]).into_iter::<Value>();

@@ -3,15 +3,15 @@
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use vectors::faults::Workers;
-use vectors::{Bundle, Strategy};
+use vectors::{Bundle, Manifest, Strategy, WholeFile, bundle};
 
 use super::configuration::Configuration;
 use super::table::write_folded;
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 
 /// Write test vectors for an RTL simulation.
 ///
@@ -24,14 +24,18 @@ use super::{Out, Outcome};
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk vectors --preset paper --count 4096 --seed 1 --out vectors\n          \
-                        blysk vectors --config small.json --strategy compact --out fewest"
+                        blysk vectors --config small.json --strategy compact --out fewest\n          \
+                        blysk vectors --preset paper --count 64 --format csv --out -"
 )]
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
-    /// The directory; it is made where it does not exist.
+    /// The directory; it is made where it does not exist. With --format csv the file, or - for standard output.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// What to write.
+    #[arg(long, value_enum, default_value_t)]
+    format: Shape,
     /// mixed, compact (as few as show every fault), corners, even, random or exhaustive (every address
     /// with every x).
     #[arg(long, default_value_t)]
@@ -42,6 +46,16 @@ pub(super) struct Args {
     /// Seed of the random ones, and of the wrong word.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+}
+
+/// What is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Shape {
+    /// Every file of the bundle.
+    #[default]
+    Files,
+    /// What vectors.csv holds, alone.
+    Csv,
 }
 
 impl Args {
@@ -61,8 +75,30 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let Args { strategy, count, seed, .. } = *args;
     let command = args.command();
-    let bundle = Bundle::with_workers(&design, strategy, count, seed, &command, &Threads)?;
-    let manifest = bundle.write_to(&args.out)?;
+    let inputs = args.configuration.files();
+    let bundle = || Bundle::with_workers(&design, strategy, count, seed, &command, &Threads);
+    if args.format == Shape::Csv {
+        let file = WholeFile::apart_from(&inputs, &args.out)?;
+        return table(&bundle()?, file, out);
+    }
+    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, bundle::names(strategy))?;
+    let manifest = bundle()?.stage(&mut set)?;
+    set.commit()?;
+    print(args, &manifest, out)
+}
+
+/// The table alone.
+fn table(bundle: &Bundle<'_>, file: WholeFile, out: &mut Out) -> anyhow::Result<Outcome> {
+    let count = bundle.vector_count();
+    let alone = file.is_standard_output();
+    let place = bundle.write_table(file)?.commit()?;
+    if !alone {
+        writeln!(out, "{}: {count} vectors", place.display())?;
+    }
+    Ok(Outcome::Good)
+}
+
+fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outcome> {
     let counts = &manifest.counts;
     writeln!(
         out,

@@ -14,6 +14,12 @@ pub const TABLES: [&str; 2] = ["error_vs_n.csv", "error_vs_n.json"];
 /// The plots a report writes, each as SVG and PNG.
 pub const PLOTS: [&str; 3] = ["error_vs_n", "error_full_range", "curves"];
 
+/// The names of a report's files.
+pub fn names() -> impl Iterator<Item = String> {
+    let plots = PLOTS.iter().flat_map(|name| ["png", "svg"].map(|end| format!("{name}.{end}")));
+    TABLES.into_iter().map(str::to_owned).chain(plots)
+}
+
 /// The columns of `error_vs_n.csv`: the fields of a row, in their order.
 pub const COLUMNS: [&str; 12] = [
     "n",

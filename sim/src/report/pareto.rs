@@ -16,6 +16,9 @@ pub const TIMING_TABLE: &str = "pareto_timing.csv";
 /// Everything.
 pub const JSON: &str = "pareto.json";
 
+/// The tables, and the same as JSON.
+pub const TABLES: [&str; 3] = [TABLE, TIMING_TABLE, JSON];
+
 /// Pixels of a PNG for each unit of its SVG.
 const PNG_SCALE: f32 = 2.0;
 

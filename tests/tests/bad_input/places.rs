@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use blysk_tests::bench;
+use blysk_tests::cli::SMALL;
 
 /// A directory below a regular file can be made by nobody, root included.
 #[test]
@@ -39,17 +40,16 @@ fn targets_that_are_no_files() {
     bench.write("in.csv", "n,x\n1,0.5\n");
     bench.write("file", "keep me");
     std::fs::create_dir_all(bench.path("directory.vcd")).unwrap();
-    // Through links, which a faulty command would replace, and not the devices of the machine.
-    for device in ["full", "null"] {
-        let path = Path::new("/dev").join(device);
-        assert!(path.exists(), "{}", path.display());
-        std::os::unix::fs::symlink(path, bench.path(&format!("{device}.vcd"))).unwrap();
+    // Through a link, which a faulty command would replace, and not the device of the machine.
+    for (name, to) in [("full.vcd", "/dev/full"), ("none.vcd", "nowhere")] {
+        std::os::unix::fs::symlink(to, bench.path(name)).unwrap();
     }
+    assert!(Path::new("/dev/full").exists());
     let simulate = "simulate --config small.json --stimulus in.csv";
     for option in ["--trace", "--waves"] {
         for (target, said) in [
-            ("full.vcd", "not a regular file"),
-            ("null.vcd", "not a regular file"),
+            ("full.vcd", "No space left"),
+            ("none.vcd", "a link to nowhere, which does not exist"),
             ("directory.vcd", "not a regular file"),
             ("directory.vcd/", "not a regular file"),
             ("..", "file"),
@@ -81,6 +81,70 @@ fn targets_that_are_no_files() {
         bench.refused(&format!("{command} --out taken"), &[name, "not a regular file"]);
         std::fs::remove_dir_all(bench.path("taken")).unwrap();
     }
+}
+
+/// What a command reads is not written over, by whatever name or link.
+#[cfg(unix)]
+#[test]
+fn inputs_are_not_outputs() {
+    let bench = bench!();
+    bench.write("in.csv", "n,x\n1,0.5\n");
+    std::fs::hard_link(bench.path("in.csv"), bench.path("hard.csv")).unwrap();
+    std::os::unix::fs::symlink("in.csv", bench.path("soft.csv")).unwrap();
+    std::fs::create_dir(bench.path("set")).unwrap();
+    for (name, text) in [("configuration.json", SMALL), ("trace.csv", "n,x\n1,0.5\n")] {
+        bench.write(&format!("set/{name}"), text);
+    }
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/low_exponents.json");
+    let said = "is an input of this command";
+    for trace in ["in.csv", "./in.csv", "hard.csv", "soft.csv", "set/../in.csv", "small.json"] {
+        let command = format!("simulate --config small.json --stimulus in.csv --trace {trace}");
+        bench.refused(&command, &[trace, said]);
+    }
+    for command in [
+        "simulate --config small.json --stimulus set/trace.csv --out set",
+        "refine --config small.json --out small.json",
+        "certify --config small.json --out small.json",
+        "vectors --config small.json --count 9 --format csv --out small.json",
+        &format!("specialise {scene} --config set/configuration.json --out set"),
+    ] {
+        bench.refused(command, &[said]);
+    }
+    // The mesh of a scene.
+    let knot = bench.good("mesh --along 8 --sides 3 --out -");
+    std::fs::create_dir(bench.path("pictures")).unwrap();
+    bench.write("pictures/render.csv", knot);
+    let text = std::fs::read_to_string(scene.replace("low_exponents", "torus_knot")).unwrap();
+    bench.write("scene.json", text.replace("torus_knot.obj", "pictures/render.csv"));
+    bench.refused("render scene.json --preset paper --out pictures", &["render.csv", said]);
+}
+
+/// Work that takes minutes does not begin where its files have no place.
+#[test]
+fn places_are_looked_at_before_the_work() {
+    let bench = bench!();
+    bench.write("file", "");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/scenes/torus_knot.json");
+    let begun = std::time::Instant::now();
+    for (command, name) in [
+        ("report --preset precise --exhaustive", "curves.svg"),
+        ("report --all-presets --exhaustive", "schlick/curves.svg"),
+        ("vectors --preset precise --strategy compact", "manifest.json"),
+        ("rtl --preset precise --strategy compact", "Makefile"),
+        ("pareto", "pareto.csv"),
+        ("stability --preset precise", "seams.json"),
+        (&format!("specialise {scene} --preset precise"), "rtl/blysk_pkg.sv"),
+    ] {
+        std::fs::create_dir_all(bench.path("taken").join(name)).unwrap();
+        bench.refused(&format!("{command} --out taken"), &[name, "not a regular file"]);
+        std::fs::remove_dir_all(bench.path("taken")).unwrap();
+        bench.refused(&format!("{command} --out file/x"), &["a file is in the way"]);
+        bench.refused(&format!("{command} --out -"), &["--out -", "a directory"]);
+    }
+    for command in ["certify --preset precise", "refine --preset precise"] {
+        bench.refused(&format!("{command} --out file/x"), &["a file is in the way"]);
+    }
+    assert!(begun.elapsed().as_secs() < 60, "{:?}", begun.elapsed());
 }
 
 /// The end of its name says what a file of waves is to be.

@@ -21,4 +21,5 @@ mod rom_image;
 mod rtl;
 mod specialise;
 mod stability;
+mod streams;
 mod vectors;

@@ -23,8 +23,15 @@ fn rendered(bench: &Bench, name: &str, more: &[&str]) -> String {
     good(bench, &[&["render", path.to_str().unwrap()], more].concat())
 }
 
-const FILES: [&str; 6] =
-    ["difference.png", "methods.png", "pipeline.png", "reference.png", "render.csv", "render.json"];
+const FILES: [&str; 7] = [
+    "difference.png",
+    "methods.png",
+    "pipeline.png",
+    "reference.png",
+    "render.csv",
+    "render.json",
+    "render.sha256",
+];
 
 struct Png {
     width: usize,

@@ -62,6 +62,7 @@ fn the_files_of_every_part() {
         }
         wanted.extend(own);
     }
+    wanted.push("stability.sha256".to_owned());
     wanted.sort_unstable();
     let found: Vec<String> =
         bench.tree("deep/all").into_keys().map(|name| name.display().to_string()).collect();

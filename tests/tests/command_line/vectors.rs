@@ -42,7 +42,7 @@ fn the_same_command_gives_the_same_bytes() {
                 second.lines().skip(1).collect::<String>()
             );
             let (first, second) = (bench.tree("first"), bench.tree("deep/second"));
-            assert_eq!(first.len(), 6);
+            assert_eq!(first.len(), 7);
             assert!(first == second, "{command}");
             let verified = checked(&bench, "first", &design);
             assert_eq!(verified.manifest.command, format!("blysk {command}"));
@@ -103,7 +103,8 @@ fn files_are_replaced_whole() {
             "negative_control.mem",
             "rom.mem",
             "stimulus.mem",
-            "vectors.csv"
+            "vectors.csv",
+            "vectors.sha256"
         ]
     );
     assert_eq!(verify(bench.path("v")).unwrap().vectors.len(), 20);

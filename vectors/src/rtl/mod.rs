@@ -15,7 +15,8 @@ use hw_model::design::Design;
 pub use hw_model::rtl::{PACKAGE, TESTBENCH};
 use hw_model::rtl::{SOURCES, TOP};
 
-use crate::bundle::{Bundle, BundleError};
+use crate::bundle::{self, Bundle, BundleError};
+use crate::case::Strategy;
 use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
@@ -59,6 +60,17 @@ impl Sources<'_> {
     }
 }
 
+/// The Makefile that runs the testbench.
+pub const MAKEFILE: &str = "Makefile";
+/// The FuseSoC core file.
+pub const CORE: &str = "blysk.core";
+
+/// The names of the files of a directory of hardware.
+pub fn names(strategy: Strategy) -> impl Iterator<Item = &'static str> {
+    let generated = [PACKAGE, TESTBENCH, MAKEFILE, CORE, SAVE_FILE, STAGES, EXPONENTS];
+    SOURCES.into_iter().map(|(name, _)| name).chain(generated).chain(bundle::names(strategy))
+}
+
 /// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
 /// Makefile, FuseSoC core file, and what GTKWave shows.
 ///
@@ -83,8 +95,8 @@ pub fn stage(
     }
     set.write(PACKAGE, package(design, command))?;
     set.write(TESTBENCH, testbench(&sources))?;
-    set.write("Makefile", project::makefile(&sources))?;
-    set.write("blysk.core", project::core_file(&sources))?;
+    set.write(MAKEFILE, project::makefile(&sources))?;
+    set.write(CORE, project::core_file(&sources))?;
     let names = if sources.is_own() { Names::Rtl } else { Names::Ports };
     set.write(SAVE_FILE, save_file(design.datapath(), names, SCOPE, Some(WAVES)))?;
     stage_words(bundle, command, set)?;
@@ -97,7 +109,7 @@ fn stage_words(bundle: &Bundle<'_>, command: &str, set: &mut OutputSet) -> Resul
     let word = StageWord::of(datapath);
     let mut file = set.file(STAGES)?;
     write_stage_words(&mut file, bundle, command, &word).map_err(|cause| file.error(cause))?;
-    set.keep(file)
+    set.keep(file).map(drop)
 }
 
 fn write_stage_words(

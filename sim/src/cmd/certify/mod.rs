@@ -13,12 +13,11 @@ use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method, UnknownMethod};
 use rayon::prelude::*;
 use vectors::text_file::{self, CERTIFICATE};
-use vectors::whole_file::WholeFile;
 
 use super::configuration::{find_preset, load_config};
 use super::report::{Bar, bound};
 use super::table::Format;
-use super::{Out, Outcome};
+use super::{Out, Outcome, output};
 use crate::certify::certificate::{Certificate, Claim};
 use crate::certify::check::{Checked, check};
 use crate::certify::claim::{Claims, Region};
@@ -56,7 +55,7 @@ pub(super) struct Args {
     /// Exit with status 1 unless the absolute error on the epicentre is proved to be at most this.
     #[arg(long, value_parser = bound)]
     bound: Option<f64>,
-    /// Write the certificate, a JSON file.
+    /// Write the certificate, a JSON file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
     out: Option<PathBuf>,
     /// What to print: a summary (table), or every row (csv, json).
@@ -109,18 +108,20 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         );
     }
     // Made before the work, so that an unwritable place is found at once.
-    let file = args.out.as_ref().map(WholeFile::create).transpose()?;
+    let inputs: Vec<PathBuf> = args.subject.config.iter().cloned().collect();
+    let file = output::file(args.out.as_ref(), &inputs)?;
     let claim = claim(args)?;
     let certificate = Certificate::new(claim);
-    if let Some(mut file) = file {
-        file.write_all(certificate.to_json().as_bytes()).map_err(|error| file.error(error))?;
-        file.commit()?;
+    let alone = output::fill(file, certificate.to_json())?;
+    if !alone {
+        print::claim(certificate.claim(), args.format, out)?;
     }
-    print::claim(certificate.claim(), args.format, out)?;
-    if let (Some(path), Format::Table) = (&args.out, args.format) {
+    if let (Some(path), Format::Table, false) = (&args.out, args.format, alone) {
         writeln!(out, "\nwritten to {}", path.display())?;
     }
     match args.bound {
+        // In csv and json only the exit status says it.
+        Some(bound) if alone => verdict(bound, certificate.claim(), Format::Json, out),
         Some(bound) => verdict(bound, certificate.claim(), args.format, out),
         None => Ok(Outcome::Good),
     }
