@@ -93,13 +93,6 @@ impl Progress for AtomicU64 {
     }
 }
 
-/// The number of samples an exhaustive report sees; a sampled one is not worth a progress bar.
-#[must_use]
-pub fn exhaustive_samples(design: &Design) -> u64 {
-    let per_row = design.datapath().front_end().greatest as u64 + 1;
-    per_row.saturating_mul(design.rom().depth() as u64)
-}
-
 /// Measures every exponent. Rows and pieces go to all threads; the result does not depend on their number.
 ///
 /// # Errors

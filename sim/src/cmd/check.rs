@@ -13,6 +13,7 @@ use vectors::answers::{Failure, Field, Got};
 use vectors::table::hex;
 use vectors::{Verdict, check, verify};
 
+use super::bar::Bar;
 use super::{Out, Outcome};
 use crate::agreement::{Agreement, Disagreement, compare};
 
@@ -55,8 +56,10 @@ fn check_registers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<
     let compared = if log == Path::new("-") {
         compare(design.datapath(), io::stdin().lock())
     } else {
-        let file = File::open(log).with_context(|| format!("cannot read {}", log.display()))?;
-        compare(design.datapath(), BufReader::new(file))
+        let cannot = || format!("cannot read {}", log.display());
+        let file = File::open(log).with_context(cannot)?;
+        let bar = Bar::counting(Some(file.metadata().with_context(cannot)?.len()), "bytes");
+        compare(design.datapath(), BufReader::new(bar.reading(file)))
     };
     match compared {
         Ok(agreement) => {

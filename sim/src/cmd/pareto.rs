@@ -10,8 +10,8 @@ use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use vectors::whole_file::OutputSet;
 
+use super::bar::Bar;
 use super::pareto_tables as tables;
-use super::report::Bar;
 use super::table::write_folded;
 use super::{Out, Outcome};
 use crate::analysis::pareto::check::differences;

@@ -10,8 +10,8 @@ use hw_model::design::Design;
 use rayon::prelude::*;
 use vectors::whole_file::OutputSet;
 
+use super::bar::Bar;
 use super::configuration::Configuration;
-use super::report::Bar;
 use super::scene::{counted, load, resized, size};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome};

@@ -7,8 +7,10 @@ use clap::Args as ClapArgs;
 use hw_model::rtl::TOP;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::{Out, Outcome};
+use crate::analysis::error_report::Progress;
 
 /// Write the RTL with its testbench, vectors and a Makefile that runs them.
 ///
@@ -65,7 +67,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let command = args.command();
     let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
     let mut set = OutputSet::create(&args.out)?;
-    let manifest = rtl::stage(&bundle, &args.dut, &command, &mut set)?;
+    // Every vector goes to the testbench's files and to those of its registers.
+    let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
+    let watcher = |vectors| bar.advance(vectors);
+    let manifest = rtl::stage(&bundle.watched(&watcher), &args.dut, &command, &mut set)?;
+    bar.finish();
     set.commit()?;
     let place = args.out.display();
     writeln!(

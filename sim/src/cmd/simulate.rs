@@ -8,9 +8,11 @@ use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
 use vectors::{Cycle as StimulusLine, WholeFile, read_stimulus};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
+use crate::analysis::error_report::Progress;
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus};
 use crate::trace::TraceWriter;
@@ -62,11 +64,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let mut waves = waves.map(WholeFile::create).transpose()?;
     let name = &design.config().name;
     let mut recorders = Recorders::new(trace.as_mut(), format.zip(waves.as_mut()), name, datapath)?;
+    let bar = Bar::counting(Some(stimulus.len() as u64), "cycles");
     let counts = run_stimulus(
         &mut Pipeline::new(datapath),
         stimulus.iter().map(|line| Ok(cycle(line))),
-        |cycle| recorders.cycle(cycle),
+        |cycle| {
+            bar.advance(1);
+            recorders.cycle(cycle)
+        },
     )?;
+    bar.finish();
     recorders.finish(counts.cycles)?;
     for file in [trace, waves].into_iter().flatten() {
         file.commit()?;

@@ -10,8 +10,8 @@ use hw_model::design::Design;
 use hw_model::rtl::TOP;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
+use super::bar::Bar;
 use super::configuration::{MaybeConfiguration, quoted};
-use super::report::Bar;
 use super::scene::load;
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
@@ -20,7 +20,7 @@ use crate::render::{Part, Pipeline, Samples, Which, samples};
 use crate::scene::Scene;
 use crate::specialise::{
     Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out,
-    pixels_outside, reduce, rows,
+    pixels_outside, points, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -93,6 +93,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let Some(source) = args.configuration.design()? else {
         bail!("say --preset NAME or --config FILE");
     };
+    // Before the work, and not after it.
+    Bundle::check_count(Strategy::Mixed, args.count)?;
     let mut made = Made::new(args, &scene, &source)?;
     if let Some(directory) = &args.out {
         made.write(args, &source, directory)?;
@@ -119,7 +121,11 @@ impl Made {
     fn new(args: &Args, scene: &Scene, source: &Design) -> anyhow::Result<Self> {
         let demands = demands(scene);
         let rows = rows(source, &demands)?;
-        let pixels = samples(scene, &std::sync::atomic::AtomicU64::new(0));
+        let points = points(source, &rows)?;
+        let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
+        let bar = Bar::counting(Some(rays), "pixels");
+        let pixels = samples(scene, &bar);
+        bar.finish();
         if let Some((exponent, x)) = pixels_outside(scene, &pixels, &demands) {
             bail!(
                 "a pixel presents x = {x} with n = {exponent}, outside what was bounded: the scene is too far \
@@ -127,7 +133,12 @@ impl Made {
             );
         }
         let display = Display { bits: scene.image.display_bits, transfer: scene.image.transfer };
-        let bar = Bar::new(None);
+        // With fewer codes allowed to be told apart there is a pass for each width of the output, at most.
+        let passes = match args.allow_codes {
+            Some(_) => u64::from(source.config().output.fraction_bits()),
+            None => 1,
+        };
+        let bar = Bar::new(Some(points * passes));
         let (specialised, found) =
             reduce(source, &rows, &scene.name, display, args.allow_codes, &bar)?;
         bar.finish();
@@ -282,15 +293,15 @@ fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Ou
     let shown = path.display();
     let text =
         fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
-    let bar = Bar::new(None);
     let held = Certificate::from_json(&text).and_then(|certificate| {
+        let bar = Bar::new(Some(certificate.inputs()));
         certificate.check(&bar)?;
+        bar.finish();
         if let Some(scene) = scene {
             certificate.holds_for(&scene.name, &demands(scene))?;
         }
         Ok(certificate)
     });
-    bar.finish();
     match held {
         Ok(certificate) => {
             write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;

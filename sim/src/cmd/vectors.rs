@@ -1,17 +1,18 @@
 //! `blysk vectors`: test vectors for an RTL simulation.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use vectors::faults::Workers;
 use vectors::{Bundle, Strategy};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::table::write_folded;
 use super::{Out, Outcome};
+use crate::analysis::error_report::Progress;
 
 /// Write test vectors for an RTL simulation.
 ///
@@ -62,7 +63,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let Args { strategy, count, seed, .. } = *args;
     let command = args.command();
     let bundle = Bundle::with_workers(&design, strategy, count, seed, &command, &Threads)?;
-    let manifest = bundle.write_to(&args.out)?;
+    let bar = Bar::counting(Some(bundle.vector_count()), "vectors");
+    let watcher = |vectors| bar.advance(vectors);
+    let manifest = bundle.watched(&watcher).write_to(&args.out)?;
+    bar.finish();
     let counts = &manifest.counts;
     writeln!(
         out,
@@ -86,21 +90,16 @@ struct Threads;
 
 impl Workers for Threads {
     fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
-        let bar = match std::io::stderr().is_terminal() {
-            true => ProgressBar::new(count.into()),
-            false => ProgressBar::hidden(),
-        };
-        let style = ProgressStyle::with_template("{bar:40} {pos} of {len} rows, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let bar = Bar::counting(Some(count.into()), "rows");
         let results = (0..count)
             .into_par_iter()
             .map(|index| {
                 let result = job(index);
-                bar.inc(1);
+                bar.advance(1);
                 result
             })
             .collect();
-        bar.finish_and_clear();
+        bar.finish();
         results
     }
 }

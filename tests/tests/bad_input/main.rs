@@ -9,6 +9,7 @@ mod options;
 mod places;
 mod scenes;
 mod searches;
+mod sizes;
 mod stimulus;
 
 use blysk_tests::cli::SMALL;

@@ -11,6 +11,7 @@ mod help;
 mod output;
 mod pareto;
 mod presets;
+mod progress;
 mod refine;
 mod render;
 mod report;
