@@ -16,6 +16,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use blysk_tests::fuzz::campaign::{Campaign, Figures};
+use blysk_tests::fuzz::run::processor_time;
 use blysk_tests::fuzz::{SLOWEST, TARGETS, Target};
 use peak_alloc::PeakAlloc;
 use tempfile::TempDir;
@@ -198,6 +199,27 @@ fn keep(target: &Target, found: &Found, kept: &Path, all: &mut Vec<String>) -> R
     Ok(())
 }
 
+/// The number of the run under way.
+static RUN: AtomicU64 = AtomicU64::new(0);
+
+/// Ends the process when a run does not end: after [`SLOWEST`] at work, or much more without any.
+fn watch() {
+    thread::spawn(|| {
+        let mut run = (u64::MAX, Instant::now(), processor_time());
+        loop {
+            thread::sleep(Duration::from_millis(100));
+            let now = RUN.load(Ordering::Relaxed);
+            if run.0 != now {
+                run = (now, Instant::now(), processor_time());
+            }
+            let worked = processor_time().saturating_sub(run.2);
+            if worked > SLOWEST || run.1.elapsed() > 20 * SLOWEST {
+                std::process::exit(TOO_LONG);
+            }
+        }
+    });
+}
+
 /// One process: runs until its time is over, and leaves the input of each run for whoever looks after its end.
 fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(), String> {
     let target = Target::find(target).ok_or_else(|| format!("there is no target {target:?}"))?;
@@ -205,21 +227,11 @@ fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(),
     let begun = Instant::now();
     let mut campaign = Campaign::new(target, number(seed)?);
     let mut found: Vec<String> = Vec::new();
-    // The time of the run under way, in milliseconds; a run that does not end is ended from here.
-    static SINCE: AtomicU64 = AtomicU64::new(0);
-    thread::spawn(move || {
-        loop {
-            thread::sleep(Duration::from_millis(100));
-            let since = Duration::from_millis(SINCE.load(Ordering::Relaxed));
-            if begun.elapsed().saturating_sub(since) > SLOWEST + Duration::from_secs(1) {
-                std::process::exit(TOO_LONG);
-            }
-        }
-    });
+    watch();
     loop {
         let input = campaign.input();
         fs::write(directory.join("input"), &input).map_err(said)?;
-        SINCE.store(begun.elapsed().as_millis() as u64, Ordering::Relaxed);
+        RUN.fetch_add(1, Ordering::Relaxed);
         if let Err(finding) = campaign.run(&input) {
             let text = format!("{}\n{finding:?}", finding.kind());
             if !found.contains(&text) {

@@ -6,6 +6,7 @@ use std::sync::{Mutex, Once, PoisonError};
 use std::time::{Duration, Instant};
 
 use peak_alloc::PeakAlloc;
+use rustix::time::{ClockId, clock_gettime};
 
 use super::{MOST_MEMORY, Outcome, Place, SLOWEST, Target};
 
@@ -37,7 +38,7 @@ impl Finding {
 pub struct Ran {
     /// What was made of the input.
     pub outcome: Outcome,
-    /// How long it took.
+    /// How long the processors worked on it.
     pub time: Duration,
     /// The most bytes that were held at a time, those of the whole process included. It is counted where the program
     /// has [`PeakAlloc`] as its allocator.
@@ -50,6 +51,13 @@ static SAID: Mutex<String> = Mutex::new(String::new());
 thread_local! {
     /// Whether this thread is in a run, whose panics are findings and no news.
     static RUNNING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// What this process has had of the processors.
+#[must_use]
+pub fn processor_time() -> Duration {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    Duration::new(time.tv_sec.unsigned_abs(), time.tv_nsec.unsigned_abs() as u32)
 }
 
 /// Runs a target once.
@@ -68,11 +76,13 @@ pub fn run(target: &Target, input: &[u8], place: &Place) -> Result<Ran, Finding>
         }));
     });
     PeakAlloc.reset_peak_usage();
-    let begun = Instant::now();
+    let (begun, worked) = (Instant::now(), processor_time());
     RUNNING.set(true);
     let outcome = catch_unwind(AssertUnwindSafe(|| (target.run)(input, place)));
     RUNNING.set(false);
     let (time, memory) = (begun.elapsed(), PeakAlloc.peak_usage());
+    // A run that had to wait for a processor is not a slow one.
+    let time = time.min(processor_time().saturating_sub(worked));
     let outcome = outcome
         .map_err(|_| Finding::Panic(SAID.lock().unwrap_or_else(PoisonError::into_inner).clone()))?;
     if time > SLOWEST {
