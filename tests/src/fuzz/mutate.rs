@@ -79,7 +79,7 @@ const TOKENS: [&str; 52] = [
 #[must_use]
 pub fn mutate(first: &[u8], second: &[u8], form: Form, random: &mut Random) -> Vec<u8> {
     let mut bytes = first.to_vec();
-    for _ in 0..random.integer(1, 4) {
+    for _ in 0..random.one_of(&[1, 1, 2, 4]) {
         bytes = match random.integer(0, 5) {
             0 => altered_bytes(&bytes, random),
             1 => altered_text(&bytes, second, random),
@@ -167,15 +167,28 @@ fn tokens(text: &str, second: &str, random: &mut Random) -> String {
     let others = self::pieces(second);
     let at = place(pieces.len().saturating_sub(1), random);
     if pieces.is_empty() {
-        return random.one_of(&TOKENS).to_owned();
+        return token(random);
     }
+    let made = token(random);
     match random.integer(0, 3) {
         0 if !others.is_empty() => pieces[at] = random.one_of(&others),
         1 => pieces[at] = pieces[place(pieces.len() - 1, random)],
-        2 => pieces.insert(at, random.one_of(&TOKENS)),
-        _ => pieces[at] = random.one_of(&TOKENS),
+        2 => pieces.insert(at, &made),
+        _ => pieces[at] = &made,
     }
     pieces.concat()
+}
+
+/// One of the [`TOKENS`], or a format or small integer that may well be right.
+fn token(random: &mut Random) -> String {
+    match random.integer(0, 5) {
+        0 | 1 => {
+            let sign = random.one_of(&["UQ", "UQ", "Q"]);
+            format!("{sign}{}.{}", random.integer(-4, 4), random.integer(0, 63))
+        }
+        2 => random.integer(0, 70).to_string(),
+        _ => random.one_of(&TOKENS).to_owned(),
+    }
 }
 
 fn altered_json(bytes: &[u8], second: &[u8], random: &mut Random) -> Vec<u8> {
@@ -262,8 +275,8 @@ fn near(number: f64, random: &mut Random) -> Value {
 
 /// A token as the JSON it looks like.
 fn any(random: &mut Random) -> Value {
-    let token = random.one_of(&TOKENS);
-    serde_json::from_str(token).unwrap_or_else(|_| match random.integer(0, 3) {
+    let token = token(random);
+    serde_json::from_str(&token).unwrap_or_else(|_| match random.integer(0, 3) {
         0 => Value::Null,
         1 => Value::Array(Vec::new()),
         2 => Value::Bool(true),
