@@ -16,6 +16,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use blysk_tests::fuzz::campaign::{Campaign, Figures};
+use blysk_tests::fuzz::overwrite;
 use blysk_tests::fuzz::run::processor_time;
 use blysk_tests::fuzz::{SLOWEST, TARGETS, Target};
 use peak_alloc::PeakAlloc;
@@ -230,7 +231,7 @@ fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(),
     watch();
     loop {
         let input = campaign.input();
-        fs::write(directory.join("input"), &input).map_err(said)?;
+        overwrite(&directory.join("input"), &input).map_err(said)?;
         RUN.fetch_add(1, Ordering::Relaxed);
         if let Err(finding) = campaign.run(&input) {
             let text = format!("{}\n{finding:?}", finding.kind());
@@ -242,7 +243,7 @@ fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(),
             }
         }
         let over = begun.elapsed() >= left && campaign.figures.runs > campaign.corpus_len() as u64;
-        if over || campaign.figures.runs % REPORTED == 0 {
+        if over || campaign.figures.runs.is_multiple_of(REPORTED) {
             let Figures { runs, accepted, slowest, memory } = campaign.figures;
             let text = format!("{runs} {accepted} {} {memory}\n", slowest.as_micros());
             fs::write(directory.join("figures"), text).map_err(said)?;

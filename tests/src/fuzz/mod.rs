@@ -21,7 +21,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use mutate::Form;
-pub use place::Place;
+pub use place::{Place, overwrite};
 
 /// No run may take longer.
 pub const SLOWEST: Duration = Duration::from_secs(10);

@@ -1,6 +1,7 @@
 //! What targets stand on: a directory of their own, and hardware whose files they read.
 
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use hw_model::config::Config;
@@ -11,6 +12,17 @@ use vectors::{Bundle, Strategy};
 /// The configuration that stimulus, answers, register logs and bundles of the corpus are for.
 pub const TINY: &str = r#"{"name": "tiny", "method": "hermite", "exponents": "1..=4", "input": "UQ1.8",
     "output": "UQ1.7"}"#;
+
+/// Puts other contents into a file. A file that is cut to nothing and written again is waited for until it is on the
+/// disk, by some file systems; this one is not.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn overwrite(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create(true).truncate(false).open(path)?;
+    file.write_all(bytes)?;
+    file.set_len(bytes.len() as u64)
+}
 
 /// A directory, and the hardware of [`TINY`] with a bundle of its vectors.
 #[derive(Debug)]
@@ -49,7 +61,7 @@ impl Place {
     #[must_use]
     pub fn file(&self, name: &str, bytes: &[u8]) -> PathBuf {
         let path = self.directory.path().join(name);
-        fs::write(&path, bytes).expect("the directory is ours");
+        overwrite(&path, bytes).expect("the directory is ours");
         path
     }
 
