@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants fuzz clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -113,6 +113,9 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
 	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
+
+fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in results/fuzz
+	$(CARGO) run $(CHECKED) --locked --quiet --bin fuzz -- $(or $(MINUTES),30) $(SEED)
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

@@ -5,6 +5,7 @@ pub mod bench;
 pub mod cli;
 pub mod comparison;
 pub mod configurations;
+pub mod fuzz;
 pub mod naive;
 pub mod reference;
 pub mod rtl;

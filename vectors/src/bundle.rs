@@ -1,6 +1,7 @@
 //! A bundle of vectors: stimulus, expected answers, ROM image, table and manifest.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,8 +12,9 @@ use thiserror::Error;
 use crate::case::{Sample, Strategy};
 use crate::checksum::Checksum;
 use crate::fault_table::write_faults;
-use crate::faults::compact::{MOST_INPUTS, inputs};
 use crate::faults::{Compact, OneByOne, Workers};
+pub use crate::limits::MAX_VECTORS;
+use crate::limits::{Sweep, TooManyInputs, inputs};
 use crate::manifest::{
     Counts, EXPECTED, FAULTS, FORMAT_VERSION, FaultCounts, Hardware, MANIFEST, Manifest,
     NEGATIVE_CONTROL, ROM, STIMULUS, TABLE, Words,
@@ -24,10 +26,6 @@ use crate::rtl::{EXPONENTS, STAGES};
 use crate::stimulus::Stimulus;
 use crate::table::TableWriter;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
-
-/// The most vectors of one bundle, 2^22. The table of the `paper` preset has about 600 bytes a line,
-/// so this is some 2.5 GB.
-pub const MAX_VECTORS: u64 = 1 << 22;
 
 /// The name of the list of a bundle's files, `vectors.sha256`, without its end.
 pub const COMMAND: &str = "vectors";
@@ -50,11 +48,8 @@ pub enum BundleError {
         count: u128,
     },
     /// More inputs than a search can go through.
-    #[error(
-        "compact would look at {0} inputs several times, more than {MOST_INPUTS}; use a narrower input \
-         format or fewer exponents, or another strategy"
-    )]
-    TooManyInputs(u128),
+    #[error(transparent)]
+    TooManyInputs(#[from] TooManyInputs),
     /// The files could not be written.
     #[error(transparent)]
     Output(#[from] OutputError),
@@ -76,6 +71,17 @@ pub struct Bundle<'a> {
     requested: u64,
     seed: u64,
     command: String,
+    watcher: Watcher<'a>,
+}
+
+/// Who is told how many more vectors are written.
+#[derive(Clone, Copy)]
+struct Watcher<'a>(&'a (dyn Fn(u64) + Sync));
+
+impl fmt::Debug for Watcher<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Watcher")
+    }
 }
 
 impl<'a> Bundle<'a> {
@@ -106,14 +112,9 @@ impl<'a> Bundle<'a> {
         command: &str,
         workers: &impl Workers,
     ) -> Result<Self, BundleError> {
-        if count == 0 && !strategy.counts_itself() {
-            return Err(BundleError::NoVectors);
-        }
-        if count > MAX_VECTORS && !strategy.counts_itself() {
-            return Err(BundleError::TooMany { strategy, count: count.into() });
-        }
-        if strategy == Strategy::Compact && inputs(design) > MOST_INPUTS {
-            return Err(BundleError::TooManyInputs(inputs(design)));
+        Self::check_count(strategy, count)?;
+        if strategy == Strategy::Compact {
+            Sweep::Compact.within(inputs(design), design.config().input)?;
         }
         let stimulus = Stimulus::with_workers(design, strategy, count, seed, workers);
         let len = stimulus.len();
@@ -121,7 +122,34 @@ impl<'a> Bundle<'a> {
             return Err(BundleError::TooMany { strategy, count: len });
         }
         let requested = if strategy.counts_itself() { len as u64 } else { count };
-        Ok(Self { design, stimulus, strategy, requested, seed, command: command.to_owned() })
+        let (command, watcher) = (command.to_owned(), Watcher(&|_| {}));
+        Ok(Self { design, stimulus, strategy, requested, seed, command, watcher })
+    }
+
+    /// The same bundle, which tells `watcher` how many more vectors are written, each time they are.
+    #[must_use]
+    pub fn watched(self, watcher: &'a (dyn Fn(u64) + Sync)) -> Self {
+        Self { watcher: Watcher(watcher), ..self }
+    }
+
+    /// So many more vectors are written to one of the files.
+    pub(crate) fn written(&self, vectors: u64) {
+        (self.watcher.0)(vectors);
+    }
+
+    /// Checks a count alone, for those who have work to do before the bundle.
+    ///
+    /// # Errors
+    /// When there would be no vectors, or more than [`MAX_VECTORS`].
+    pub fn check_count(strategy: Strategy, count: u64) -> Result<(), BundleError> {
+        match count {
+            _ if strategy.counts_itself() => Ok(()),
+            0 => Err(BundleError::NoVectors),
+            count if count > MAX_VECTORS => {
+                Err(BundleError::TooMany { strategy, count: count.into() })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The design.
@@ -278,6 +306,7 @@ impl<'a> Bundle<'a> {
                 control.word(&words.expected, &word)?;
             }
             table.write(index, &sample, &passage).map_err(in_table)?;
+            self.written(1);
             *kinds.entry(sample.kind).or_insert(0) += 1;
         }
         let csv = Begun(table.finish().map_err(in_table)?);

@@ -17,6 +17,7 @@ pub mod checksum;
 pub mod fault_table;
 pub mod faults;
 pub mod kind;
+pub mod limits;
 pub mod manifest;
 pub mod memory_file;
 pub mod negative_control;

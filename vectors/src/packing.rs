@@ -5,6 +5,39 @@ use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 use hw_model::rom::{Layout, Place};
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// Why a layout that was read is refused.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LayoutError {
+    /// The width is another one than that of all fields.
+    #[error("width: {width}; its fields have {bits} bits together")]
+    Width {
+        /// The width as stated.
+        width: u32,
+        /// Bits of the fields.
+        bits: u64,
+    },
+    /// A field lies elsewhere.
+    #[error("field `{name}`: below what stands before it, {format} is bits {msb} to {lsb}")]
+    Place {
+        /// The field.
+        name: String,
+        /// Its format.
+        format: QFormat,
+        /// The highest bit it should have.
+        msb: u32,
+        /// The lowest bit it should have.
+        lsb: u32,
+    },
+    /// Other fields.
+    #[error("fields: from the highest bits down they are {wanted}")]
+    Names {
+        /// The names.
+        wanted: String,
+    },
+}
 
 /// One field of a word.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -69,6 +102,40 @@ impl WordLayout {
             WordField { name: name.to_owned(), format, msb, lsb: above }
         });
         Self { width, fields: fields.collect() }
+    }
+
+    /// Checks that the fields lie side by side and are the whole word: what a layout that was read may say of its
+    /// width is then no more than its fields have.
+    ///
+    /// # Errors
+    /// Says which field lies elsewhere, and where it should.
+    pub fn check(&self) -> Result<(), LayoutError> {
+        let bits = self.fields.iter().map(|field| u64::from(field.format.width())).sum::<u64>();
+        if bits != u64::from(self.width) {
+            return Err(LayoutError::Width { width: self.width, bits });
+        }
+        let mut above = self.width;
+        for WordField { name, format, msb, lsb } in &self.fields {
+            let expected = above - format.width();
+            if (*msb, *lsb) != (above - 1, expected) {
+                let (name, msb) = (name.clone(), above - 1);
+                return Err(LayoutError::Place { name, format: *format, msb, lsb: expected });
+            }
+            above = expected;
+        }
+        Ok(())
+    }
+
+    /// Checks that the fields have these names, from the highest bits down.
+    ///
+    /// # Errors
+    /// When they have others.
+    pub fn check_names(&self, names: &[&'static str]) -> Result<(), LayoutError> {
+        let found = self.fields.iter().map(|field| field.name.as_str());
+        if found.eq(names.iter().copied()) {
+            return Ok(());
+        }
+        Err(LayoutError::Names { wanted: names.join(", ") })
     }
 
     /// Hex digits of a word; a word without bits still takes one.

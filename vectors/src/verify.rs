@@ -8,6 +8,7 @@ use dashu_int::UBig;
 use thiserror::Error;
 
 use crate::checksum::checksum;
+use crate::limits::{MAX_VECTORS, MOST_WORDS};
 use crate::manifest::{
     EXPECTED, FAULTS, FORMAT_VERSION, MANIFEST, Manifest, NEGATIVE_CONTROL, ROM, STIMULUS, TABLE,
 };
@@ -90,6 +91,16 @@ pub enum VerifyError {
         found: u64,
         /// Vectors by the manifest.
         expected: u64,
+    },
+    /// A field of the manifest that is out of its range.
+    #[error("{}: {field}: {problem}", path.display())]
+    Field {
+        /// The manifest.
+        path: PathBuf,
+        /// The field.
+        field: &'static str,
+        /// What is wrong, and what would be right.
+        problem: String,
     },
     /// The bundle has no vectors, so it would check nothing.
     #[error("{} says that there are no vectors; a bundle has at least 1", .0.display())]
@@ -223,8 +234,35 @@ fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
         Err(cause) => Err(VerifyError::Manifest { path, cause }),
         Ok(Err(found)) => Err(VerifyError::Version { path, found }),
         Ok(Ok(Manifest { counts, .. })) if counts.vectors == 0 => Err(VerifyError::Empty(path)),
-        Ok(Ok(manifest)) => Ok(manifest),
+        Ok(Ok(manifest)) => match check_sizes(&manifest) {
+            Ok(()) => Ok(manifest),
+            Err((field, problem)) => Err(VerifyError::Field { path, field, problem }),
+        },
     }
+}
+
+/// Every field that sizes memory or shifts bits is in its range: the counts, and the layouts of words.
+fn check_sizes(manifest: &Manifest) -> Result<(), (&'static str, String)> {
+    let Manifest { counts, words, .. } = manifest;
+    let counted = [
+        ("counts.vectors", counts.vectors, MAX_VECTORS),
+        ("counts.rom_words", counts.rom_words, MOST_WORDS),
+    ];
+    for (field, count, most) in counted {
+        if !(1..=most).contains(&count) {
+            return Err((field, format!("{count}; a bundle has 1 to {most}")));
+        }
+    }
+    let layouts = [
+        ("words.stimulus", &words.stimulus, Some(["address", "x"])),
+        ("words.expected", &words.expected, Some(["status", "intensity"])),
+        ("words.rom", &words.rom, None),
+    ];
+    for (field, layout, names) in layouts {
+        let named = names.map_or(Ok(()), |names| layout.check_names(&names));
+        named.and_then(|()| layout.check()).map_err(|error| (field, error.to_string()))?;
+    }
+    Ok(())
 }
 
 fn check_file(

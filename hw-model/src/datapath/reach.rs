@@ -12,6 +12,11 @@ use super::Datapath;
 use super::front_end::Region;
 use super::tail::Divider;
 
+/// The most intervals that one search looks at, in all or for each row, whichever is more. Where a line is flat, their
+/// number is about 2^(bits/2): 24 bits take some thousands for a row, and 62 bits would have no end.
+const MOST_INTERVALS: u64 = 1 << 22;
+const MOST_OF_ROW: u64 = 1 << 16;
+
 /// A value with the place where it is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extreme {
@@ -65,7 +70,8 @@ struct Interval<L> {
 type Lines<L> = [Interval<L>; 4];
 
 impl Datapath {
-    /// What the registers of the polynomial take, where there is one.
+    /// What the registers of the polynomial take, where there is one, and where it is found in a time that anybody
+    /// waits for.
     #[must_use]
     pub fn polynomial_reach(&self) -> Option<PolynomialReach> {
         self.stages?;
@@ -92,7 +98,7 @@ impl Datapath {
         Some(Reach { least, greatest })
     }
 
-    /// The place where `worth` of a line is greatest.
+    /// The place where `worth` of a line is greatest; none where it is not found.
     fn search<L: Lane>(&self, line: usize, worth: impl Fn(&Interval<L>) -> L) -> Option<Extreme> {
         let mut best: Option<(L, Extreme)> = None;
         let mut open = Vec::new();
@@ -114,7 +120,9 @@ impl Datapath {
                 open.push((address, first, last));
             }
         }
+        let mut left = MOST_INTERVALS.max(self.rom.depth() as u64 * MOST_OF_ROW);
         while let Some((address, first, last)) = open.pop() {
+            left = left.checked_sub(1)?;
             let most = worth(&self.lines::<L>(&self.row(address), first, last)[line]);
             if last - first > 1 && best.is_none_or(|(best, _)| most > best) {
                 let middle = first + (last - first) / 2;

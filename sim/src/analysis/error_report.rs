@@ -93,13 +93,6 @@ impl Progress for AtomicU64 {
     }
 }
 
-/// The number of samples an exhaustive report sees; a sampled one is not worth a progress bar.
-#[must_use]
-pub fn exhaustive_samples(design: &Design) -> u64 {
-    let per_row = design.datapath().front_end().greatest as u64 + 1;
-    per_row.saturating_mul(design.rom().depth() as u64)
-}
-
 /// Measures every exponent. Rows and pieces go to all threads; the result does not depend on their number.
 ///
 /// # Errors
@@ -176,10 +169,11 @@ fn sweep_everything(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> 
 }
 
 fn sweep_samples(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> {
-    samples(design)
+    corners(design)
         .into_par_iter()
         .enumerate()
-        .map(|(address, xs)| {
+        .map(|(address, corners)| {
+            let xs = samples(design, &design.rows()[address], corners);
             let errors = sweep_row(design, address as u32, Xs::List(&xs));
             progress.advance(errors.samples);
             errors
@@ -187,23 +181,10 @@ fn sweep_samples(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> {
         .collect()
 }
 
-/// The samples of every row, in rising order.
-#[must_use]
-pub fn samples(design: &Design) -> Vec<Vec<i64>> {
+/// The x of the corners of every row. The rest of the samples is some thousands for each row, and is made row by row.
+fn corners(design: &Design) -> Vec<Vec<i64>> {
     let greatest = design.datapath().front_end().greatest;
-    let spread = |from: i64, count: i64| {
-        let span = i128::from(greatest - from);
-        (0..=count).map(move |i| from + (span * i128::from(i) / i128::from(count)) as i64)
-    };
-    let mut rows: Vec<Vec<i64>> = design
-        .rows()
-        .iter()
-        .map(|row| {
-            let epicentre = row.first_of_epicentre(design.config()).min(greatest);
-            let nearest = (greatest - NEAREST).max(0)..=greatest;
-            spread(0, SPREAD).chain(spread(epicentre, SPREAD)).chain(nearest).collect()
-        })
-        .collect();
+    let mut rows = vec![Vec::new(); design.rows().len()];
     for sample in Corners::new(design, u64::MAX).samples() {
         if let Some(xs) = rows.get_mut(sample.case.address as usize)
             && (0..=greatest).contains(&sample.case.x)
@@ -211,11 +192,23 @@ pub fn samples(design: &Design) -> Vec<Vec<i64>> {
             xs.push(sample.case.x);
         }
     }
-    for xs in &mut rows {
-        xs.sort_unstable();
-        xs.dedup();
-    }
     rows
+}
+
+/// The samples of a row, in rising order, with the corners that it has.
+fn samples(design: &Design, row: &RealRow, corners: Vec<i64>) -> Vec<i64> {
+    let greatest = design.datapath().front_end().greatest;
+    let spread = |from: i64, count: i64| {
+        let span = i128::from(greatest - from);
+        (0..=count).map(move |i| from + (span * i128::from(i) / i128::from(count)) as i64)
+    };
+    let epicentre = row.first_of_epicentre(design.config()).min(greatest);
+    let nearest = (greatest - NEAREST).max(0)..=greatest;
+    let mut xs = corners;
+    xs.extend(spread(0, SPREAD).chain(spread(epicentre, SPREAD)).chain(nearest));
+    xs.sort_unstable();
+    xs.dedup();
+    xs
 }
 
 /// The epicentre's error where the ends of the segments are part of the fit: each segment by itself, as

@@ -13,17 +13,13 @@ use hw_model::fit::FitError;
 use hw_model::highlight::{ExactPower, phong};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
+use vectors::limits::{Sweep, TooManyInputs, inputs};
 
-use crate::analysis::error_report::{
-    ErrorRow, Options, Progress, error_report, exhaustive_samples,
-};
+use crate::analysis::error_report::{ErrorRow, Options, Progress, error_report};
 use crate::interval::Interval;
 
 /// x and intensity of at most this many bits are f64, exactly.
 const EXACT_BITS: u32 = 53;
-
-/// The most points, 2^40: hours of work.
-const MOST_POINTS: u64 = 1 << 40;
 
 /// More than what the sweep's errors can be short of the truth, 2⁻⁵³, by as much again: the checker's
 /// enclosures of a power reach to both its neighbours.
@@ -98,13 +94,8 @@ pub enum HardwareError {
         bits: u32,
     },
     /// Exhaustion would take too long.
-    #[error(
-        "{points} points are more than {MOST_POINTS}; use a narrower input format or fewer exponents"
-    )]
-    TooMany {
-        /// Its points.
-        points: u64,
-    },
+    #[error(transparent)]
+    TooMany(#[from] TooManyInputs),
     /// An exponent.
     #[error(transparent)]
     Fit(#[from] FitError),
@@ -125,10 +116,7 @@ pub fn points(design: &Design) -> Result<u64, HardwareError> {
             return Err(HardwareError::TooFine { what, bits });
         }
     }
-    match exhaustive_samples(design) {
-        points if points > MOST_POINTS => Err(HardwareError::TooMany { points }),
-        points => Ok(points),
-    }
+    Ok(Sweep::Certify.within(inputs(design), config.input)?)
 }
 
 /// Sweeps the whole configuration.

@@ -1,6 +1,7 @@
 //! `blysk check`: what a designer's own simulation answered, against the vectors it was given.
 
-use std::io::{self, Write};
+use std::fs;
+use std::io::{self, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
@@ -13,6 +14,7 @@ use vectors::table::hex;
 use vectors::text_file::{self, REGISTER_LOG, TextReader};
 use vectors::{Verdict, check, verify};
 
+use super::bar::Bar;
 use super::{Out, Outcome};
 use crate::agreement::{Agreement, Disagreement, compare};
 
@@ -55,7 +57,9 @@ fn check_registers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<
     let compared = if log == Path::new("-") {
         compare(design.datapath(), TextReader::new(io::stdin().lock(), REGISTER_LOG))
     } else {
-        compare(design.datapath(), text_file::open(log, REGISTER_LOG)?)
+        let text = text_file::open(log, REGISTER_LOG)?;
+        let bar = Bar::counting(fs::metadata(log).ok().map(|log| log.len()), "bytes");
+        compare(design.datapath(), BufReader::new(bar.reading(text)))
     };
     match compared {
         Ok(agreement) => {

@@ -10,8 +10,10 @@ use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use hw_model::quantise::{decimal, real};
 use hw_model::rounding::Rounding;
+use vectors::limits::Sweep;
 
-use super::report::{Bar, bound};
+use super::bar::Bar;
+use super::report::bound;
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome, output};
 use crate::analysis::sizing::{
@@ -77,10 +79,10 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         over: args.range,
         finalists: args.finalists.into(),
     };
-    check(&request)?;
+    let samples = check(&request)?;
     // Begun before the work, so that an unwritable place is found at once.
     let file = output::file(args.out.as_ref(), &[])?;
-    let bar = Bar::new(Some(samples(&request)));
+    let bar = Bar::new(Some(samples));
     let sized = size(&request, &bar)?;
     bar.finish();
     if output::fill(file, sized.design.config().to_json())? {
@@ -108,8 +110,9 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     Ok(Outcome::Good)
 }
 
-/// The formats and exponents alone, so that a wrong one is refused by its name and not by every candidate's.
-fn check(request: &Request) -> anyhow::Result<()> {
+/// The formats and exponents alone, so that a wrong one is refused by its name and not by every candidate's. Returns
+/// the samples of the search.
+fn check(request: &Request) -> anyhow::Result<u64> {
     let config = Config {
         exponents: request.exponents.clone(),
         input: request.input,
@@ -127,14 +130,7 @@ fn check(request: &Request) -> anyhow::Result<()> {
             request.output
         );
     }
-    const MOST_SAMPLES: u64 = 1 << 34;
-    let samples = samples(request);
-    if samples > MOST_SAMPLES {
-        bail!(
-            "{samples} samples are more than {MOST_SAMPLES}; use a narrower --input or fewer --exponents"
-        );
-    }
-    Ok(())
+    Ok(Sweep::Design.within(samples(request), request.input)?)
 }
 
 fn parts(config: &Config) -> [String; 4] {

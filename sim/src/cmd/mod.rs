@@ -3,6 +3,7 @@
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
 //! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
 
+mod bar;
 mod certify;
 mod check;
 mod claims;
@@ -86,6 +87,8 @@ struct Stdout(io::StdoutLock<'static>);
 
 impl Write for Stdout {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        // Results and what stands for them until then share the terminal.
+        bar::end();
         self.0.write(bytes).map_err(named)
     }
     fn flush(&mut self) -> io::Result<()> {
@@ -107,11 +110,13 @@ pub fn main() -> ExitCode {
     }
     let cli = Cli::parse();
     let mut out = BufWriter::new(Stdout(io::stdout().lock()));
+    bar::begin();
     let result = run(cli.command, &mut out).and_then(|outcome| match out.flush() {
         // What was found stands in the exit status, whoever reads the rest.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
         _ => Ok(outcome),
     });
+    bar::end();
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Fails) => ExitCode::from(1),

@@ -9,8 +9,8 @@ use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 use vectors::text_file::{self, PARETO_TABLE, SYNTHESIS_TABLE, foreign_separator};
 
+use super::bar::Bar;
 use super::pareto_tables as tables;
-use super::report::Bar;
 use super::table::write_folded;
 use super::{Out, Outcome, output};
 use crate::analysis::pareto::check::differences;

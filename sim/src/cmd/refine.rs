@@ -10,8 +10,8 @@ use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::rom::FieldName;
 
+use super::bar::Bar;
 use super::configuration::Configuration;
-use super::report::Bar;
 use super::rom::addresses;
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome, output};
@@ -65,14 +65,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         bail!("method {} has no polynomial whose coefficients could move", design.config().method);
     }
     let addresses = addresses(&design, args.exponents.as_ref())?;
-    // Begun before the work, so that an unwritable place is found at once.
-    let file = output::file(args.out.as_ref(), &args.configuration.files())?;
     let range = match args.range {
         Over::Fitted => Range::Fitted,
         Over::Polynomial => Range::Polynomial,
     };
     let options = Options { range, reach: args.reach };
-    let bar = Bar::new(Some(samples(&design, &addresses, options)));
+    let samples = samples(&design, &addresses, options)?;
+    // Begun before the work, so that an unwritable place is found at once.
+    let file = output::file(args.out.as_ref(), &args.configuration.files())?;
+    let bar = Bar::new(Some(samples));
     let refined = refine(&design, &addresses, options, &bar)?;
     bar.finish();
     if output::fill(file, refined.config().to_json())? {

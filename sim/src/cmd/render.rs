@@ -9,8 +9,8 @@ use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use rayon::prelude::*;
 
+use super::bar::Bar;
 use super::configuration::Configuration;
-use super::report::Bar;
 use super::scene::{Loaded, counted, load, resized, size};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome, output};

@@ -1,6 +1,6 @@
 //! `blysk report`: the error of every exponent, and the verdict.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, bail};
@@ -8,15 +8,14 @@ use clap::Args as ClapArgs;
 use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::presets;
-use indicatif::{ProgressBar, ProgressStyle};
 use vectors::OutputSet;
+use vectors::limits::{Sweep, inputs};
 
+use super::bar::Bar;
 use super::configuration::{find_preset, load_config};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use super::{Out, Outcome, output};
-use crate::analysis::error_report::{
-    ErrorReport, ErrorRow, Options, Progress, error_report, exhaustive_samples,
-};
+use crate::analysis::error_report::{ErrorReport, ErrorRow, Options, error_report};
 use crate::report::files;
 
 /// Measure the error for every exponent and judge it against a bound.
@@ -62,9 +61,6 @@ struct Subject {
     #[arg(long)]
     all_presets: bool,
 }
-
-/// The most samples of an exhaustive report, 2^40: hours of work.
-const MOST_SAMPLES: u64 = 1 << 40;
 
 pub(super) fn bound(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -119,15 +115,10 @@ fn measure(
     set: Option<&mut OutputSet>,
 ) -> anyhow::Result<ErrorReport> {
     let curves = curves_exponent(args.curves, design)?;
-    let samples = exhaustive_samples(design);
-    if args.exhaustive && samples > MOST_SAMPLES {
-        bail!(
-            "--exhaustive: {samples} samples are more than {MOST_SAMPLES}; leave it out, or use a \
-             narrower input format or fewer exponents"
-        );
-    }
+    let within = || Sweep::Report.within(inputs(design), design.config().input);
+    let samples = args.exhaustive.then(within).transpose()?;
     let options = Options { bound: args.bound, exhaustive: args.exhaustive };
-    let bar = Bar::new(args.exhaustive.then_some(samples));
+    let bar = Bar::new(samples);
     let report = error_report(design, options, &bar)?;
     bar.finish();
     if let Some(set) = set {
@@ -145,40 +136,6 @@ fn curves_exponent(asked: Option<f64>, design: &Design) -> anyhow::Result<f64> {
         Some(n) => Ok(n),
         None if exponents.position(64.0).is_some() => Ok(64.0),
         None => Ok(exponents.as_slice()[exponents.len() / 2]),
-    }
-}
-
-/// A progress bar on standard error, where that is a terminal.
-pub(super) struct Bar(ProgressBar);
-
-impl Bar {
-    pub(super) fn new(samples: Option<u64>) -> Self {
-        Self::counting(samples, "samples")
-    }
-
-    /// A bar that counts so many of these; none where the count is not known.
-    pub(super) fn counting(count: Option<u64>, what: &str) -> Self {
-        match count {
-            Some(count) if std::io::stderr().is_terminal() => {
-                let bar = ProgressBar::new(count);
-                let style = ProgressStyle::with_template(&format!(
-                    "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {what}, {{eta}} left",
-                ));
-                Self(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())))
-            }
-            _ => Self(ProgressBar::hidden()),
-        }
-    }
-
-    /// The work is done: nothing of the bar stays.
-    pub(super) fn finish(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
-impl Progress for Bar {
-    fn advance(&self, samples: u64) {
-        self.0.inc(samples);
     }
 }
 

@@ -8,8 +8,10 @@ use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
 use vectors::{Bundle, Strategy, rtl};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::{Out, Outcome, output};
+use crate::analysis::error_report::Progress;
 
 /// Write the RTL with its testbench, vectors and a Makefile that runs them.
 ///
@@ -60,7 +62,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let inputs = args.configuration.files();
     let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(args.strategy))?;
     let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
-    let manifest = rtl::stage(&bundle, &args.dut, &command, &mut set)?;
+    // Every vector goes to the testbench's files and to those of its registers.
+    let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
+    let watcher = |vectors| bar.advance(vectors);
+    let manifest = rtl::stage(&bundle.watched(&watcher), &args.dut, &command, &mut set)?;
+    bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);
     let dut = if args.dut == TOP { "" } else { " DUT=FILE" };

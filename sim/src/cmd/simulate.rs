@@ -7,10 +7,12 @@ use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
 use vectors::{Cycle as StimulusLine, read_stimulus};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::recordings::{Recordings, Target};
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
+use crate::analysis::error_report::Progress;
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus, settle};
 use crate::trace::TraceWriter;
@@ -61,10 +63,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let (trace, waves) = recordings.targets();
     let mut recorders = Recorders::new(trace, waves, name, datapath)?;
     let mut pipeline = Pipeline::new(datapath);
+    let bar = Bar::counting(Some(stimulus.len() as u64), "cycles");
     let counts =
         run_stimulus(&mut pipeline, stimulus.iter().map(|line| Ok(cycle(line))), |cycle| {
+            bar.advance(1);
             recorders.cycle(cycle)
         })?;
+    bar.finish();
     settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
     if !recordings.commit()? {
         print(&counts, datapath.rank_count(), args.format, out)?;

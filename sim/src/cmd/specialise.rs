@@ -12,8 +12,8 @@ use vectors::text_file;
 use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
 
+use super::bar::Bar;
 use super::configuration::MaybeConfiguration;
-use super::report::Bar;
 use super::scene::{Loaded, load};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
@@ -22,7 +22,7 @@ use crate::render::{Part, Pipeline, Samples, Which, samples};
 use crate::scene::Scene;
 use crate::specialise::{
     Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out,
-    pixels_outside, reduce, rows,
+    pixels_outside, points, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -116,6 +116,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let Some(source) = args.configuration.design()? else {
         bail!("say --preset NAME or --config FILE");
     };
+    // Before the work, and not after it.
+    Bundle::check_count(Strategy::Mixed, args.count)?;
     let inputs = [files, args.configuration.files()].concat();
     let begin = |out| output::set(out, COMMAND, &inputs, args.names());
     let set = args.out.as_deref().map(begin).transpose()?;
@@ -145,7 +147,11 @@ impl Made {
     fn new(args: &Args, scene: &Scene, source: &Design) -> anyhow::Result<Self> {
         let demands = demands(scene);
         let rows = rows(source, &demands)?;
-        let pixels = samples(scene, &std::sync::atomic::AtomicU64::new(0));
+        let points = points(source, &rows)?;
+        let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
+        let bar = Bar::counting(Some(rays), "pixels");
+        let pixels = samples(scene, &bar);
+        bar.finish();
         if let Some((exponent, x)) = pixels_outside(scene, &pixels, &demands) {
             bail!(
                 "a pixel presents x = {x} with n = {exponent}, outside what was bounded: the scene is too far \
@@ -153,7 +159,12 @@ impl Made {
             );
         }
         let display = Display { bits: scene.image.display_bits, transfer: scene.image.transfer };
-        let bar = Bar::new(None);
+        // With fewer codes allowed to be told apart there is a pass for each width of the output, at most.
+        let passes = match args.allow_codes {
+            Some(_) => u64::from(source.config().output.fraction_bits()),
+            None => 1,
+        };
+        let bar = Bar::new(Some(points * passes));
         let (specialised, found) =
             reduce(source, &rows, &scene.name, display, args.allow_codes, &bar)?;
         bar.finish();
@@ -322,15 +333,15 @@ fn written_with(certificate: &Path) -> Result<Option<usize>, ListError> {
 fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text = text_file::read(path, text_file::CERTIFICATE)?;
-    let bar = Bar::new(None);
     let held = Certificate::from_json(&text).and_then(|certificate| {
+        let bar = Bar::new(Some(certificate.inputs()));
         certificate.check(&bar)?;
+        bar.finish();
         if let Some(scene) = scene {
             certificate.holds_for(&scene.name, &demands(scene))?;
         }
         Ok(certificate)
     });
-    bar.finish();
     match held {
         Ok(certificate) => match written_with(path) {
             Ok(files) => {

@@ -8,10 +8,11 @@ use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Levels;
+use vectors::limits::Sweep;
 use vectors::whole_file::OutputSet;
 
+use super::bar::Bar;
 use super::configuration::MaybeConfiguration;
-use super::report::Bar;
 use super::stability_tables as tables;
 use super::table::{Format, write_folded};
 use super::{Out, Outcome, output};
@@ -74,9 +75,6 @@ enum Part {
     All,
 }
 
-/// The most pairs of neighbouring x, 2^40: hours of work.
-const MOST_PAIRS: u64 = 1 << 40;
-
 impl Part {
     fn has(self, part: Self) -> bool {
         self == part || self == Self::All
@@ -117,7 +115,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
             session.show(&report, tables::edges)?;
         }
         if args.part.has(Part::Seams) {
-            let bar = Bar::new(Some(pairs(design, &addresses)));
+            let bar = Bar::new(u64::try_from(pairs(design, &addresses)).ok());
             let report = seam_report(design, &addresses, &bar);
             bar.finish();
             session.show(&report, tables::seams)?;
@@ -167,12 +165,8 @@ fn addresses(args: &Args, design: &Design) -> anyhow::Result<Vec<u32>> {
             None => bail!("--exponents {n}: the ROM has no word for it; it has {exponents}"),
         }
     }
-    let pairs = pairs(design, &addresses);
-    if args.part.has(Part::Seams) && pairs > MOST_PAIRS {
-        bail!(
-            "seams: {pairs} pairs of neighbouring x are more than {MOST_PAIRS}; use a narrower input \
-             format, or fewer exponents with --exponents"
-        );
+    if args.part.has(Part::Seams) {
+        Sweep::Stability.within(pairs(design, &addresses), design.config().input)?;
     }
     Ok(addresses)
 }

@@ -1,17 +1,18 @@
 //! `blysk vectors`: test vectors for an RTL simulation.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::{Args as ClapArgs, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use rayon::prelude::*;
 use vectors::faults::Workers;
 use vectors::{Bundle, Manifest, Strategy, WholeFile, bundle};
 
+use super::bar::Bar;
 use super::configuration::Configuration;
 use super::table::write_folded;
 use super::{Out, Outcome, output};
+use crate::analysis::error_report::Progress;
 
 /// Write test vectors for an RTL simulation.
 ///
@@ -82,7 +83,11 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         return table(&bundle()?, file, out);
     }
     let mut set = output::set(&args.out, bundle::COMMAND, &inputs, bundle::names(strategy))?;
-    let manifest = bundle()?.stage(&mut set)?;
+    let bundle = bundle()?;
+    let bar = Bar::counting(Some(bundle.vector_count()), "vectors");
+    let watcher = |vectors| bar.advance(vectors);
+    let manifest = bundle.watched(&watcher).stage(&mut set)?;
+    bar.finish();
     set.commit()?;
     print(args, &manifest, out)
 }
@@ -122,21 +127,16 @@ struct Threads;
 
 impl Workers for Threads {
     fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
-        let bar = match std::io::stderr().is_terminal() {
-            true => ProgressBar::new(count.into()),
-            false => ProgressBar::hidden(),
-        };
-        let style = ProgressStyle::with_template("{bar:40} {pos} of {len} rows, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        let bar = Bar::counting(Some(count.into()), "rows");
         let results = (0..count)
             .into_par_iter()
             .map(|index| {
                 let result = job(index);
-                bar.inc(1);
+                bar.advance(1);
                 result
             })
             .collect();
-        bar.finish_and_clear();
+        bar.finish();
         results
     }
 }

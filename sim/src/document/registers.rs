@@ -100,6 +100,10 @@ impl<'a> Facts<'a> {
         match (register.name, &self.tail) {
             ("remainder", Some(reach)) => held(0, reach.divisor.greatest.bits - 1, Known::Bound),
             ("region", _) => held(0, self.greatest_region(), Known::Format),
+            // Where the polynomial's greatest value was not found, that of the clamp is all that is known.
+            ("intensity", _) if self.polynomial.is_none() && self.datapath().stages().is_some() => {
+                held(0, self.datapath().output_one(), Known::Bound)
+            }
             ("intensity", _) => held(0, self.greatest_intensity(), Known::Exact),
             _ => held(format.min_bits(), format.max_bits(), Known::Format),
         }

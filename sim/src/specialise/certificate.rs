@@ -9,6 +9,7 @@ use hw_model::design::{Design, DesignError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::checksum::checksum;
+use vectors::limits::TooManyInputs;
 
 use super::compare::certify;
 use super::derive::Row;
@@ -112,6 +113,9 @@ pub enum Refused {
     /// One of the configurations has no hardware.
     #[error("configuration: {0}")]
     Design(#[from] DesignError),
+    /// More x than are gone through.
+    #[error(transparent)]
+    TooMany(#[from] TooManyInputs),
     /// An exponent that one of the two has not, or another domain than the configuration's.
     #[error("parts[{index}], n = {n}: {problem}")]
     Part {
@@ -177,7 +181,14 @@ impl Certificate {
     /// Points that were compared.
     #[must_use]
     pub fn points(&self) -> u64 {
-        self.parts.iter().map(|part| part.points).sum()
+        self.parts.iter().fold(0, |sum, part| sum.saturating_add(part.points))
+    }
+
+    /// Points that were compared and x that were refused, as the certificate says: for a bar.
+    #[must_use]
+    pub fn inputs(&self) -> u64 {
+        let parts = self.parts.iter();
+        parts.fold(0, |sum, part| sum.saturating_add(part.points).saturating_add(part.refused))
     }
 
     /// Reads a certificate, and checks that it is as it was sealed.

@@ -4,6 +4,7 @@ use hw_model::datapath::Status;
 use hw_model::design::Design;
 use hw_model::quantise::real;
 use rayon::prelude::*;
+use vectors::limits::{Sweep, TooManyInputs};
 
 use super::certificate::{Display, Part, Proved, Refused};
 use super::derive::Row;
@@ -11,15 +12,26 @@ use crate::analysis::error_report::Progress;
 use crate::render::Codes;
 use crate::scene::Image;
 
+/// Bits of the codes of the displays that a scene may have.
+const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
 /// x that are looked at together.
 const PIECE: i64 = 1 << 14;
 /// x that are evaluated side by side.
 const REQUESTS: usize = 128;
 
+/// How many x the rows have, all of which are gone through.
+///
+/// # Errors
+/// When they are too many.
+pub fn points(source: &Design, rows: &[Row]) -> Result<u64, TooManyInputs> {
+    let per_row = source.datapath().front_end().greatest as u128 + 1;
+    Sweep::Specialise.within(per_row * rows.len() as u128, source.config().input)
+}
+
 /// Goes through every x of the rows.
 ///
 /// # Errors
-/// When a part has no word, an x that should be refused is answered, or answers differ by more than `allowed` codes
+/// When they are too many, a part has no word, an x that should be refused is answered, or answers differ by more than `allowed` codes
 /// (by anything, without it).
 pub fn certify(
     source: &Design,
@@ -29,6 +41,12 @@ pub fn certify(
     allowed: Option<u16>,
     progress: &dyn Progress,
 ) -> Result<(Proved, Vec<Part>), Refused> {
+    points(source, rows)?;
+    if !DISPLAY_BITS.contains(&display.bits) {
+        let (said, found) =
+            (display.bits.to_string(), format!("a display of {DISPLAY_BITS:?} bits"));
+        return Err(Refused::Found { field: "display.bits".to_owned(), said, found });
+    }
     let codes = Codes::new(&Image {
         width: 1,
         height: 1,

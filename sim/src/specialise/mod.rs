@@ -20,7 +20,7 @@ mod tile;
 
 pub use certificate::{Certificate, Display, Part, Proved, Refused};
 pub use codes::{ReduceError, pixels_outside, reduce};
-pub use compare::certify;
+pub use compare::{certify, points};
 pub use demand::{Demand, demands};
 pub use derive::{Row, SpecialiseError, derive, is_guarded, rows};
 pub use figures::{LeftOut, left_out};

@@ -10,6 +10,7 @@ mod options;
 mod places;
 mod scenes;
 mod searches;
+mod sizes;
 mod stimulus;
 mod text;
 

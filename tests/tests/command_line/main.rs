@@ -12,6 +12,7 @@ mod meshes;
 mod output;
 mod pareto;
 mod presets;
+mod progress;
 mod refine;
 mod render;
 mod report;

@@ -22,10 +22,8 @@ use super::rows::{Mask, RowFaults};
 use super::screen::Screen;
 use crate::case::{Case, Sample};
 use crate::kind::Kind;
+use crate::limits::inputs;
 use crate::stimulus::corners::Corners;
-
-/// The most inputs a search goes through, 2^36: a ROM of thousands of words and a 24-bit x.
-pub const MOST_INPUTS: u128 = 1 << 36;
 
 /// x that are evaluated together.
 const CHUNK: i64 = 4096;
@@ -152,13 +150,6 @@ impl Compact {
             self.samples.push(sample);
         }
     }
-}
-
-/// How many inputs are tried in a search: every x of [0, 1] in every row.
-#[must_use]
-pub fn inputs(design: &Design) -> u128 {
-    let FrontEnd { greatest, .. } = design.datapath().front_end();
-    (i128::from(*greatest) as u128 + 1) * design.rom().depth() as u128
 }
 
 /// The fewest x of a row that kill every fault of it that can be killed.

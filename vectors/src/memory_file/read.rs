@@ -1,8 +1,10 @@
 //! Reading memory files.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use dashu_int::UBig;
+use dashu_int::ops::BitTest;
 
 use super::{LineProblem, MemoryError, at_line};
 use crate::text_file::{self, MEMORY};
@@ -57,22 +59,31 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
 /// missing or beyond the end.
 pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, MemoryError> {
     let text = text_file::read(path, MEMORY)?;
-    let mut words: Vec<Option<UBig>> = vec![None; depth];
-    for Entry { line, address, value } in parse(&text, path)? {
+    let entries = parse(&text, path)?;
+    // Memory follows the file and not the number that is asked for: of more words than the file has, one of the first
+    // ones is missing, and it is found in as many places and one more.
+    let places = depth.min(entries.len() + 1);
+    let mut words: Vec<Option<UBig>> = vec![None; places];
+    let mut beyond = BTreeSet::new();
+    for Entry { line, address, value } in entries {
         let wrong = |problem| Err(at_line(path, line, problem));
-        let place = usize::try_from(address).ok().and_then(|address| words.get_mut(address));
+        let place = usize::try_from(address).ok().filter(|place| *place < depth);
         let Some(place) = place else {
             return wrong(LineProblem::PastEnd { address, depth });
         };
-        match value {
+        let word = match value {
             Value::Unknown(text) => return wrong(LineProblem::Unknown(text)),
-            Value::Known(word) if !(&word >> width as usize).is_zero() => {
+            Value::Known(word) if word.bit_len() > width as usize => {
                 return wrong(LineProblem::TooWide { text: format!("{word:x}"), width });
             }
-            Value::Known(word) => *place = Some(word),
+            Value::Known(word) => word,
+        };
+        match words.get_mut(place) {
+            Some(known) => *known = Some(word),
+            None => _ = beyond.insert(place),
         }
     }
-    let found = words.iter().flatten().count();
+    let found = words.iter().flatten().count() + beyond.len();
     let missing = words.iter().position(Option::is_none);
     match missing {
         None => Ok(words.into_iter().flatten().collect()),

@@ -128,6 +128,7 @@ fn write_stage_words(
     for sample in bundle.samples() {
         let passage = bundle.design().datapath().passage(sample.case.address, sample.case.x);
         writeln!(file, "{:0digits$x}", pack(word, &passage))?;
+        bundle.written(1);
     }
     Ok(())
 }

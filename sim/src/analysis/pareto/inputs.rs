@@ -6,9 +6,7 @@ use hw_model::format::QFormat;
 use hw_model::quantise::round_scaled;
 use hw_model::rounding::Rounding;
 use thiserror::Error;
-
-/// The most samples, 2^40: hours of work.
-pub const MOST_SAMPLES: u64 = 1 << 40;
+use vectors::limits::{Sweep, TooManyInputs};
 
 /// x with more fraction bits is no f64.
 const MOST_FRACTION: u32 = 52;
@@ -28,10 +26,8 @@ pub enum InputsError {
     )]
     NotX(QFormat),
     /// Too much work.
-    #[error(
-        "{0} samples are more than {MOST_SAMPLES}; use a narrower --input, fewer --exponents, or --every K"
-    )]
-    TooMany(u64),
+    #[error(transparent)]
+    TooMany(#[from] TooManyInputs),
 }
 
 /// The inputs of a comparison: every `every`-th representable x in [0, 1] from 0 on, and the last, for
@@ -59,10 +55,9 @@ impl Inputs {
             return Err(InputsError::NotX(format));
         }
         let inputs = Self { format, exponents, every: every.max(1) };
-        match inputs.count() {
-            count if count > MOST_SAMPLES => Err(InputsError::TooMany(count)),
-            _ => Ok(inputs),
-        }
+        let count = u128::from(inputs.per_exponent()) * inputs.exponents.len() as u128;
+        Sweep::Pareto.within(count, format)?;
+        Ok(inputs)
     }
 
     /// Every representable x is seen.

@@ -20,6 +20,7 @@ use hw_model::design::{Design, DesignError, Revision};
 use hw_model::steps::CoefficientSteps;
 use rayon::prelude::*;
 use serde::Serialize;
+use vectors::limits::{Sweep, TooManyInputs};
 
 use super::error_report::Progress;
 use piece::Piece;
@@ -69,9 +70,15 @@ pub struct Refined {
 pub(crate) const NO_BUDGET: f64 = 1e6;
 
 /// The number of x that all judging goes over, for a progress bar.
-#[must_use]
-pub fn samples(design: &Design, addresses: &[u32], options: Options) -> u64 {
-    pieces(design, addresses, options).iter().map(|span| span.samples()).sum()
+///
+/// # Errors
+/// When they are too many to go through, or those of one segment too many to keep what x^n is there.
+pub fn samples(design: &Design, addresses: &[u32], options: Options) -> Result<u64, TooManyInputs> {
+    let input = design.config().input;
+    let spans = pieces(design, addresses, options);
+    let samples = || spans.iter().map(|span| u128::from(span.samples()));
+    Sweep::Refine.kept(samples().max().unwrap_or(0), input)?;
+    Sweep::Refine.within(samples().sum(), input)
 }
 
 /// Searches these rows. Segments go to all threads; the result does not depend on their number.

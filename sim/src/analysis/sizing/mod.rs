@@ -172,9 +172,13 @@ const MEASUREMENTS: u64 = 4;
 
 /// The samples that a progress bar may count on.
 #[must_use]
-pub fn samples(request: &Request) -> u64 {
-    let per_row = request.input.one() as u64;
-    per_row * request.exponents.len() as u64 / 8 * MEASUREMENTS * request.finalists as u64
+pub fn samples(request: &Request) -> u128 {
+    per_finalist(request) * request.finalists as u128
+}
+
+fn per_finalist(request: &Request) -> u128 {
+    let per_row = request.input.one() as u128;
+    per_row * request.exponents.len() as u128 / 8 * u128::from(MEASUREMENTS)
 }
 
 /// Searches. Candidates go to all threads; the result does not depend on their number.
@@ -235,7 +239,7 @@ fn finals(
     least: &[i64],
     progress: &dyn Progress,
 ) -> Result<Vec<Final>, DesignError> {
-    let limit = samples(request) / request.finalists.max(1) as u64;
+    let limit = u64::try_from(per_finalist(request)).unwrap_or(u64::MAX);
     built
         .par_iter()
         .with_max_len(1)

@@ -14,10 +14,12 @@ use hw_model::fit::{Levels, Method, UnknownMethod};
 use rayon::prelude::*;
 use vectors::text_file::{self, CERTIFICATE};
 
+use super::bar::Bar;
 use super::configuration::{find_preset, load_config};
-use super::report::{Bar, bound};
+use super::report::bound;
 use super::table::Format;
 use super::{Out, Outcome, output};
+use crate::analysis::error_report::Progress;
 use crate::certify::certificate::{Certificate, Claim};
 use crate::certify::check::{Checked, check};
 use crate::certify::claim::{Claims, Region};
@@ -157,14 +159,18 @@ fn claim(args: &Args) -> anyhow::Result<Claim> {
             exponents.iter().map(move |exponent| (method, region, exponent))
         })
     });
+    let pairs: Vec<_> = pairs.collect();
+    let bar = Bar::counting(Some(pairs.len() as u64), "claims");
     let claims = pairs
-        .collect::<Vec<_>>()
         .into_par_iter()
         .map(|(method, region, exponent)| {
-            claim_exponent(method, exponent, region, levels)
-                .with_context(|| format!("{method}, n = {exponent}, {}", region.name()))
+            let claim = claim_exponent(method, exponent, region, levels)
+                .with_context(|| format!("{method}, n = {exponent}, {}", region.name()));
+            bar.advance(1);
+            claim
         })
         .collect::<Result<_, _>>()?;
+    bar.finish();
     Ok(Claim::Exponents(Claims { levels, claims }))
 }
 

@@ -92,8 +92,8 @@ pub struct SeamReport {
 
 /// The number of pairs that a report over these addresses sees.
 #[must_use]
-pub fn pairs(design: &Design, addresses: &[u32]) -> u64 {
-    (design.datapath().front_end().greatest as u64).saturating_mul(addresses.len() as u64)
+pub fn pairs(design: &Design, addresses: &[u32]) -> u128 {
+    design.datapath().front_end().greatest as u128 * addresses.len() as u128
 }
 
 /// Scans every pair of neighbouring x in [0, 1] at these addresses, each of which has a ROM word.

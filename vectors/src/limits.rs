@@ -1,0 +1,211 @@
+//! How much is gone through, kept and written: every limit of work that has to do with inputs, in one place.
+//!
+//! An input is an x with an exponent (a ROM word). What looks at each input once may look at [`MOST_INPUTS`]; what
+//! looks at each of them several times, [`Sweep::looks`], may look at as many times fewer.
+
+use hw_model::design::Design;
+use hw_model::exponents::MAX_COUNT;
+use hw_model::format::QFormat;
+use thiserror::Error;
+
+/// The most looks at an input in one run of a command, 2^40: hours of work.
+pub const MOST_INPUTS: u128 = 1 << 40;
+
+/// The most inputs of which something is kept in memory at the same time, 2^26: half a gigabyte of real numbers.
+pub const MOST_KEPT: u128 = 1 << 26;
+
+/// The most vectors of one bundle, 2^22. The table of the `paper` preset has about 600 bytes a line, so this is some
+/// 2.5 GB.
+pub const MAX_VECTORS: u64 = 1 << 22;
+
+/// The most words of a ROM image: as many as a list of exponents is long.
+pub const MOST_WORDS: u64 = MAX_COUNT as u64;
+
+/// How many inputs a design has: every x of [0, 1] in every row.
+#[must_use]
+pub fn inputs(design: &Design) -> u128 {
+    (design.datapath().front_end().greatest as u128 + 1) * design.rom().depth() as u128
+}
+
+/// What goes over inputs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sweep {
+    /// `blysk report --exhaustive`.
+    Report,
+    /// `blysk certify` of a configuration, and its `--check`.
+    Certify,
+    /// `blysk stability`, the pairs of neighbouring x.
+    Stability,
+    /// `blysk pareto`.
+    Pareto,
+    /// `blysk specialise` and its `--check`.
+    Specialise,
+    /// `blysk vectors --strategy compact`.
+    Compact,
+    /// `blysk design`.
+    Design,
+    /// `blysk refine`.
+    Refine,
+}
+
+impl Sweep {
+    /// Every one.
+    pub const ALL: [Self; 8] = [
+        Self::Report,
+        Self::Certify,
+        Self::Stability,
+        Self::Pareto,
+        Self::Specialise,
+        Self::Compact,
+        Self::Design,
+        Self::Refine,
+    ];
+
+    /// What its errors call it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Report => "--exhaustive",
+            Self::Certify => "certify",
+            Self::Stability => "seams",
+            Self::Pareto => "pareto",
+            Self::Specialise => "specialise",
+            Self::Compact => "strategy compact",
+            Self::Design => "design",
+            Self::Refine => "refine",
+        }
+    }
+
+    /// About how often each input is looked at.
+    #[must_use]
+    pub const fn looks(self) -> u128 {
+        match self {
+            Self::Report | Self::Certify | Self::Stability | Self::Pareto => 1,
+            // Two data paths, and with --allow-codes one pass for each width of the output.
+            Self::Specialise | Self::Compact => 16,
+            // A pass for every change that is tried.
+            Self::Design | Self::Refine => 64,
+        }
+    }
+
+    /// The most inputs it goes through.
+    #[must_use]
+    pub const fn most(self) -> u128 {
+        MOST_INPUTS / self.looks()
+    }
+
+    /// What else than a narrower input would help.
+    const fn remedy(self) -> &'static str {
+        match self {
+            Self::Report => "fewer exponents, or leave --exhaustive out",
+            Self::Certify => "fewer exponents",
+            Self::Stability | Self::Design => "fewer --exponents",
+            Self::Refine => "fewer --exponents, or a shorter --range",
+            Self::Pareto => "fewer --exponents, or --every K",
+            Self::Specialise => "a scene of fewer exponents",
+            Self::Compact => "fewer exponents, or another strategy",
+        }
+    }
+
+    /// So many inputs, where they are not too many; `input` is the format of x.
+    ///
+    /// # Errors
+    /// When they are: the message says with how many fraction bits of x they would not be.
+    pub fn within(self, inputs: u128, input: QFormat) -> Result<u64, TooManyInputs> {
+        self.at_most(self.most(), inputs, input, "gone through")
+    }
+
+    /// The same of inputs of which something is kept: the longest run of x of one exponent.
+    ///
+    /// # Errors
+    /// When they are too many.
+    pub fn kept(self, inputs: u128, input: QFormat) -> Result<u64, TooManyInputs> {
+        self.at_most(MOST_KEPT, inputs, input, "kept in memory, of one exponent")
+    }
+
+    fn at_most(
+        self,
+        most: u128,
+        inputs: u128,
+        input: QFormat,
+        done: &'static str,
+    ) -> Result<u64, TooManyInputs> {
+        if inputs > most {
+            return Err(TooManyInputs { sweep: self, inputs, most, done, input });
+        }
+        Ok(inputs as u64)
+    }
+}
+
+/// More inputs than a command goes through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error(
+    "{}: {inputs} samples are more than the {most} (2^{}) that are {done}; {}",
+    sweep.name(), most.ilog2(), self.advice()
+)]
+pub struct TooManyInputs {
+    /// What would go through them.
+    pub sweep: Sweep,
+    /// How many there are.
+    pub inputs: u128,
+    /// How many there may be.
+    pub most: u128,
+    /// What is done with them.
+    done: &'static str,
+    /// The format of x.
+    pub input: QFormat,
+}
+
+impl TooManyInputs {
+    /// Fraction bits of x with which there would not be too many; none where no x is narrow enough.
+    #[must_use]
+    pub fn fitting_bits(&self) -> Option<u32> {
+        // A bit less halves them, but for the last x of each exponent: hence "less than", and not "at most".
+        let fits = |bits: &u32| self.inputs >> (self.input.fraction_bits() - bits) < self.most;
+        (1..self.input.fraction_bits()).rev().find(fits)
+    }
+
+    fn advice(&self) -> String {
+        let (input, remedy) = (self.input, self.sweep.remedy());
+        let format = match self.sweep {
+            Sweep::Design | Sweep::Pareto => "--input",
+            _ => "input format",
+        };
+        match self.fitting_bits() {
+            Some(bits) => format!(
+                "x is {input}: use a narrower {format} of {bits} fraction bits or fewer, or {remedy}"
+            ),
+            None => format!("x is {input}: use a narrower {format}, and {remedy}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_to_fit_does() {
+        for sweep in Sweep::ALL {
+            for exponents in [1_u128, 3, 8, 256, 65536] {
+                for fraction in 1..=62 {
+                    let format = QFormat::unsigned(1, fraction).unwrap();
+                    let inputs = |bits: u32| exponents * ((1 << bits) + 1);
+                    let Err(error) = sweep.within(inputs(fraction), format) else { continue };
+                    let bits = error.fitting_bits().unwrap();
+                    assert!(inputs(bits) <= sweep.most(), "{error}");
+                    assert!(inputs(bits + 1) >= sweep.most(), "{error} could say more");
+                    assert!(error.to_string().contains(&format!("of {bits} fraction bits")));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_limit_itself_is_within() {
+        let format: QFormat = "UQ1.40".parse().unwrap();
+        assert_eq!(Sweep::Report.within(1 << 40, format), Ok(1 << 40));
+        assert!(Sweep::Report.within((1 << 40) + 1, format).is_err());
+        assert!(Sweep::Refine.kept(MOST_KEPT + 1, format).is_err());
+    }
+}
