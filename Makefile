@@ -3,7 +3,8 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants clean help
+.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants alterations \
+	clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -113,6 +114,10 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
 	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
+
+alterations: ## thousands of altered and resealed certificates: none accepted that says what is not so
+	BLYSK_ALTERATIONS=$(or $(ALTERATIONS),2500) $(CARGO) test $(CHECKED) --locked --package blysk-tests \
+		--test altered_certificates -- --nocapture
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

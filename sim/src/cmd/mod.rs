@@ -79,18 +79,49 @@ enum Outcome {
 type Out = BufWriter<Stdout>;
 
 /// Standard output, whose errors say that it is what could not be written.
-struct Stdout(io::StdoutLock<'static>);
+///
+/// Whoever reads it may stop (`| head`). The rest then goes nowhere, and the command comes to its end all the same:
+/// its exit status is its verdict, and its files are written.
+struct Stdout {
+    lock: io::StdoutLock<'static>,
+    closed: bool,
+}
 
-impl Write for Stdout {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.write(bytes).map_err(named)
+impl Stdout {
+    fn lock() -> Self {
+        Self { lock: io::stdout().lock(), closed: false }
     }
-    fn flush(&mut self) -> io::Result<()> {
-        self.0.flush().map_err(named)
+
+    /// What a write gave, or `rest` where nobody reads any more.
+    fn unless_closed<T>(&mut self, result: io::Result<T>, rest: T) -> io::Result<T> {
+        match result {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(rest)
+            }
+            result => result.map_err(named),
+        }
     }
 }
 
-/// Keeps the kind: an interrupted write is tried again, and a closed pipe is no error.
+impl Write for Stdout {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.closed {
+            return Ok(bytes.len());
+        }
+        let result = self.lock.write(bytes);
+        self.unless_closed(result, bytes.len())
+    }
+    fn flush(&mut self) -> io::Result<()> {
+        if self.closed {
+            return Ok(());
+        }
+        let result = self.lock.flush();
+        self.unless_closed(result, ())
+    }
+}
+
+/// Keeps the kind: an interrupted write is tried again.
 fn named(error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("cannot write to standard output: {error}"))
 }
@@ -99,17 +130,14 @@ fn named(error: io::Error) -> io::Error {
 #[must_use]
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    let mut out = BufWriter::new(Stdout(io::stdout().lock()));
-    let result = run(cli.command, &mut out).and_then(|outcome| match out.flush() {
-        // What was found stands in the exit status, whoever reads the rest.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(outcome),
+    let mut out = BufWriter::new(Stdout::lock());
+    let result = run(cli.command, &mut out).and_then(|outcome| {
+        out.flush()?;
+        Ok(outcome)
     });
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Fails) => ExitCode::from(1),
-        // Whoever reads the output (`| head`) has seen enough.
-        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // A closed standard error leaves nobody to tell.
             let _ = writeln!(io::stderr(), "error: {}", message(&error));
@@ -153,8 +181,4 @@ fn message(error: &anyhow::Error) -> String {
             format!("{said}: {cause}")
         }
     })
-}
-
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -14,7 +14,7 @@ use super::pareto_tables as tables;
 use super::report::Bar;
 use super::table::write_folded;
 use super::{Out, Outcome};
-use crate::analysis::pareto::check::differences;
+use crate::analysis::pareto::check::{differences, not_checked};
 use crate::analysis::pareto::contender::Contenders;
 use crate::analysis::pareto::inputs::Inputs;
 use crate::analysis::pareto::synthesis::{self, Synthesis};
@@ -157,6 +157,9 @@ fn check(path: &Path, inputs: &Inputs, out: &mut Out) -> anyhow::Result<Outcome>
     if found.is_empty() {
         let (count, samples) = (kept.len(), made.samples);
         writeln!(out, "{shown} holds: {count} contenders, {samples} samples each")?;
+        if let Some(said) = not_checked(&kept, inputs) {
+            write_folded(out, &said)?;
+        }
         return Ok(Outcome::Good);
     }
     writeln!(out, "{shown} does not hold any more: {} differences", found.len())?;

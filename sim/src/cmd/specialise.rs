@@ -19,8 +19,8 @@ use super::{Out, Outcome};
 use crate::render::{Part, Pipeline, Samples, Which, samples};
 use crate::scene::Scene;
 use crate::specialise::{
-    Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out,
-    pixels_outside, reduce, rows,
+    self, Asked, Certificate, Demand, Display, Held, LeftOut, Proved, Row, demands, is_guarded,
+    left_out, pixels_outside, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -32,12 +32,13 @@ use crate::specialise::{
 /// bits, or with --allow-codes that they differ by at most so many display codes of the highlight at full strength,
 /// in the scene's curve; then the output has fewer bits and widths are derived anew. An x outside the domain gives 0
 /// and sets the status flag out_of_domain. With --check, a certificate is checked: both configurations are built
-/// again and every x is tried again; with a scene, its domain is bounded again too. Exit status 1 says that a
-/// certificate does not hold.
+/// again and every x is tried again. Nothing in it is believed: with a scene, its display and its demands are held
+/// against it, with --preset or --config the configuration that it is about, with --allow-codes the most codes that
+/// answers may differ by; what was not given is named. Exit status 1 says that a certificate does not hold.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk specialise scene.json --preset paper --out small\n          \
-                        blysk specialise --check small/certificate.json"
+                        blysk specialise scene.json --preset paper --check small/certificate.json"
 )]
 pub(super) struct Args {
     /// The scene, as JSON; docs/scenes has some to start from.
@@ -48,7 +49,8 @@ pub(super) struct Args {
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Allow answers that differ by up to this many display codes; without it they are the same bits.
+    /// Allow answers that differ by up to this many display codes; without it they are the same bits. With --check, refuse
+    /// a certificate of more.
     #[arg(long, value_name = "CODES")]
     allow_codes: Option<u16>,
     /// How many vectors.
@@ -62,7 +64,7 @@ pub(super) struct Args {
     #[arg(long, requires = "out")]
     synth: bool,
     /// Check this certificate instead.
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "preset", "config", "allow_codes", "synth"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "synth"])]
     check: Option<PathBuf>,
     /// How to print what was left out.
     #[arg(long, value_enum, default_value_t)]
@@ -87,7 +89,7 @@ impl Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let scene = args.scene.as_ref().map(|path| load(path)).transpose()?;
     if let Some(path) = &args.check {
-        return check(path, scene.as_ref(), out);
+        return check(args, path, scene.as_ref(), out);
     }
     let Some(scene) = scene else { bail!("give a scene") };
     let Some(source) = args.configuration.design()? else {
@@ -278,22 +280,26 @@ fn hardware(design: &Design, args: &Args, directory: &Path) -> anyhow::Result<()
     Ok(())
 }
 
-fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
+fn check(
+    args: &Args,
+    path: &Path,
+    scene: Option<&Scene>,
+    out: &mut Out,
+) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text =
         fs::read_to_string(path).with_context(|| format!("cannot read the certificate {shown}"))?;
+    let source = args.configuration.config()?;
+    let asked = Asked { scene, source: source.as_ref(), codes: args.allow_codes };
     let bar = Bar::new(None);
-    let held = Certificate::from_json(&text).and_then(|certificate| {
-        certificate.check(&bar)?;
-        if let Some(scene) = scene {
-            certificate.holds_for(&scene.name, &demands(scene))?;
-        }
-        Ok(certificate)
-    });
+    let held = specialise::check(&text, asked, &bar);
     bar.finish();
     match held {
-        Ok(certificate) => {
-            write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;
+        Ok(Held { statement, not_checked }) => {
+            write_folded(out, &format!("{shown} holds: {statement}"))?;
+            for sentence in not_checked {
+                write_folded(out, &sentence)?;
+            }
             Ok(Outcome::Good)
         }
         Err(refused) => {

@@ -5,7 +5,8 @@ use hw_model::design::Design;
 use hw_model::quantise::real;
 use rayon::prelude::*;
 
-use super::certificate::{Display, Part, Proved, Refused};
+use super::certificate::{Display, Part, Proved};
+use super::check::Refused;
 use super::derive::Row;
 use crate::analysis::error_report::Progress;
 use crate::render::Codes;
