@@ -3,7 +3,8 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants fuzz clean help
+.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants fuzz \
+	alterations clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -116,6 +117,10 @@ mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes l
 
 fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in results/fuzz
 	$(CARGO) run $(CHECKED) --locked --quiet --bin fuzz -- $(or $(MINUTES),30) $(SEED)
+
+alterations: ## thousands of altered and resealed certificates: none accepted that says what is not so
+	BLYSK_ALTERATIONS=$(or $(ALTERATIONS),2500) $(CARGO) test $(CHECKED) --locked --package blysk-tests \
+		--test altered_certificates -- --nocapture
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

@@ -12,6 +12,7 @@ pub mod render;
 pub mod report;
 pub mod run;
 pub mod scene;
+pub mod seal;
 pub mod specialise;
 pub mod stream;
 pub mod trace;

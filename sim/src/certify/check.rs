@@ -13,13 +13,14 @@ use hw_model::fit::Levels;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::certificate::{BrokenSeal, Certificate, Claim};
+use super::certificate::{Certificate, Claim};
 use super::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Region};
 use super::curve::is_exact;
 use super::error::{ErrorFunction, EveryExponent, OneExponent};
 use super::hardware_check::check_hardware;
 use super::partition::boxes;
 use crate::analysis::error_report::Progress;
+use crate::seal::BrokenSeal;
 
 /// Why a certificate is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

@@ -44,6 +44,15 @@ impl MaybeConfiguration {
         self.stated().design().map(Some)
     }
 
+    /// The configuration, where there is one.
+    pub(super) fn config(&self) -> anyhow::Result<Option<Config>> {
+        let Self { preset, config } = self;
+        if preset.is_none() && config.is_none() {
+            return Ok(None);
+        }
+        Ok(Some(self.stated().load()?.0))
+    }
+
     /// The option as it would be typed; nothing where there is none.
     pub(super) fn option(&self) -> String {
         self.stated().option()

@@ -83,20 +83,51 @@ enum Outcome {
 type Out = BufWriter<Stdout>;
 
 /// Standard output, whose errors say that it is what could not be written.
-struct Stdout(io::StdoutLock<'static>);
+///
+/// Whoever reads it may stop (`| head`). The rest then goes nowhere, and the command comes to its end all the same:
+/// its exit status is its verdict, and its files are written.
+struct Stdout {
+    lock: io::StdoutLock<'static>,
+    closed: bool,
+}
+
+impl Stdout {
+    fn lock() -> Self {
+        Self { lock: io::stdout().lock(), closed: false }
+    }
+
+    /// What a write gave, or `rest` where nobody reads any more.
+    fn unless_closed<T>(&mut self, result: io::Result<T>, rest: T) -> io::Result<T> {
+        match result {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(rest)
+            }
+            result => result.map_err(named),
+        }
+    }
+}
 
 impl Write for Stdout {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         // Results and what stands for them until then share the terminal.
         bar::end();
-        self.0.write(bytes).map_err(named)
+        if self.closed {
+            return Ok(bytes.len());
+        }
+        let result = self.lock.write(bytes);
+        self.unless_closed(result, bytes.len())
     }
     fn flush(&mut self) -> io::Result<()> {
-        self.0.flush().map_err(named)
+        if self.closed {
+            return Ok(());
+        }
+        let result = self.lock.flush();
+        self.unless_closed(result, ())
     }
 }
 
-/// Keeps the kind: an interrupted write is tried again, and a closed pipe is no error.
+/// Keeps the kind: an interrupted write is tried again.
 fn named(error: io::Error) -> io::Error {
     io::Error::new(error.kind(), format!("cannot write to standard output: {error}"))
 }
@@ -109,19 +140,16 @@ pub fn main() -> ExitCode {
         return ExitCode::from(2);
     }
     let cli = Cli::parse();
-    let mut out = BufWriter::new(Stdout(io::stdout().lock()));
+    let mut out = BufWriter::new(Stdout::lock());
     bar::begin();
-    let result = run(cli.command, &mut out).and_then(|outcome| match out.flush() {
-        // What was found stands in the exit status, whoever reads the rest.
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(outcome),
+    let result = run(cli.command, &mut out).and_then(|outcome| {
+        out.flush()?;
+        Ok(outcome)
     });
     bar::end();
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Fails) => ExitCode::from(1),
-        // Whoever reads the output (`| head`) has seen enough.
-        Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // A closed standard error leaves nobody to tell.
             let _ = writeln!(io::stderr(), "error: {}", message(&error));
@@ -165,8 +193,4 @@ fn message(error: &anyhow::Error) -> String {
             format!("{said}: {cause}")
         }
     })
-}
-
-fn is_broken_pipe(error: &anyhow::Error) -> bool {
-    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }

@@ -13,7 +13,7 @@ use super::bar::Bar;
 use super::pareto_tables as tables;
 use super::table::write_folded;
 use super::{Out, Outcome, output};
-use crate::analysis::pareto::check::differences;
+use crate::analysis::pareto::check::{differences, not_checked};
 use crate::analysis::pareto::contender::Contenders;
 use crate::analysis::pareto::inputs::Inputs;
 use crate::analysis::pareto::synthesis::{self, Synthesis};
@@ -171,6 +171,9 @@ fn check(path: &Path, inputs: &Inputs, out: &mut Out) -> anyhow::Result<Outcome>
     if found.is_empty() {
         let (count, samples) = (kept.len(), made.samples);
         writeln!(out, "{shown} holds: {count} contenders, {samples} samples each")?;
+        if let Some(said) = not_checked(&kept, inputs) {
+            write_folded(out, &said)?;
+        }
         return Ok(Outcome::Good);
     }
     writeln!(out, "{shown} does not hold any more: {} differences", found.len())?;

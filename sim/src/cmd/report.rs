@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::presets;
@@ -34,9 +34,12 @@ pub(super) struct Args {
     /// Write the report's files to this directory (with --all-presets: one directory inside for each).
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Greatest total error allowed on the epicentre, as a fraction of 1.
+    /// Greatest total error allowed, as a fraction of 1.
     #[arg(long, default_value_t = 0.0067, value_parser = bound)]
     bound: f64,
+    /// The x whose verdict is the exit status; the other range's verdict is printed beside it.
+    #[arg(long, value_enum, default_value_t)]
+    range: Range,
     /// Every representable x, instead of corners and an even spread.
     #[arg(long)]
     exhaustive: bool,
@@ -60,6 +63,40 @@ struct Subject {
     /// Every preset, one line each.
     #[arg(long)]
     all_presets: bool,
+}
+
+/// The x that a verdict is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Range {
+    /// The epicentre, where x^n >= Q: what [Rom] claims.
+    #[default]
+    Epicentre,
+    /// All of [0, 1].
+    All,
+}
+
+impl Range {
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Epicentre => "the epicentre",
+            Self::All => "all of [0, 1]",
+        }
+    }
+
+    /// Whether a row keeps the report's bound here.
+    fn holds(self, report: &ErrorReport, row: &ErrorRow) -> bool {
+        match self {
+            Self::Epicentre => row.holds,
+            Self::All => row.full_range_abs <= report.bound,
+        }
+    }
+
+    fn outcome<'a>(self, reports: impl IntoIterator<Item = &'a ErrorReport>) -> Outcome {
+        let keeps = |report: &ErrorReport| {
+            !report.rows.is_empty() && report.rows.iter().all(|row| self.holds(report, row))
+        };
+        if reports.into_iter().all(keeps) { Outcome::Good } else { Outcome::Fails }
+    }
 }
 
 pub(super) fn bound(text: &str) -> Result<f64, String> {
@@ -91,16 +128,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if let (Some(directory), Format::Table) = (&args.out, args.format) {
         written(&directory.display().to_string(), out)?;
     }
-    Ok(outcome(report.holds()))
+    Ok(args.range.outcome([&report]))
 }
 
 fn written(place: &str, out: &mut Out) -> std::io::Result<()> {
     let (tables, plots) = (files::TABLES.join(", "), files::PLOTS.join(", "));
     writeln!(out, "\nwritten to {place}:\n  {tables}\n  plots as .svg and .png: {plots}")
-}
-
-fn outcome(holds: bool) -> Outcome {
-    if holds { Outcome::Good } else { Outcome::Fails }
 }
 
 fn commit(set: Option<OutputSet>) -> anyhow::Result<()> {
@@ -153,16 +186,9 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     let exponents = design.rom().exponents();
     let list = listed(exponents);
     writeln!(out, "{} exponents ({list}), {samples}: {seen} samples\n", exponents.len())?;
-    let verdict = if report.holds() { "holds for every exponent" } else { "DOES NOT HOLD" };
-    let failing = report.rows.iter().filter(|row| !row.holds).count();
-    writeln!(out, "bound on the epicentre   {} {verdict}", percent(report.bound))?;
-    if let Some(first) = report.rows.iter().find(|row| !row.holds) {
-        let all = report.rows.len();
-        writeln!(
-            out,
-            "  exceeded by            {failing} of {all} exponents, from n = {}",
-            first.n
-        )?;
+    for range in [Range::Epicentre, Range::All] {
+        let (bound, verdict) = (percent(report.bound), verdict(report, range));
+        writeln!(out, "bound on {:<15} {bound} {verdict}", range.words())?;
     }
     writeln!(
         out,
@@ -220,6 +246,21 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
     Ok(())
 }
 
+/// Whether the bound holds over a range of x, and from which n it does not.
+fn verdict(report: &ErrorReport, range: Range) -> String {
+    let failing = || report.rows.iter().filter(|row| !range.holds(report, row));
+    match failing().next() {
+        None if report.rows.is_empty() => "is about no exponent".to_owned(),
+        None => "holds for every exponent".to_owned(),
+        Some(first) => format!(
+            "DOES NOT HOLD for {} of {} exponents, from n = {}",
+            failing().count(),
+            report.rows.len(),
+            first.n
+        ),
+    }
+}
+
 /// The exponents, or their ends where there is no room for all of them.
 fn listed(exponents: &Exponents) -> String {
     const MOST: usize = 24;
@@ -256,7 +297,7 @@ fn every_preset(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     } else {
         all_rows(&reports, true).print(out, args.format, 17)?;
     }
-    Ok(outcome(reports.iter().all(ErrorReport::holds)))
+    Ok(args.range.outcome(&reports))
 }
 
 fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
@@ -268,7 +309,8 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
         "method alone",
         "ROM+data path",
         "[0, 1]",
-        "verdict",
+        "on epicentre",
+        "on [0, 1]",
     ];
     let mut rows = Rows::new(&columns);
     for report in reports {
@@ -276,7 +318,6 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
             continue;
         };
         let short = |fraction: f64| Cell::from(format!("{:.6} %", fraction * 100.0));
-        let verdict = if report.holds() { "holds".to_owned() } else { first_failure(report) };
         rows.push(vec![
             Cell::from(report.configuration.clone()),
             short(worst.total_abs),
@@ -288,24 +329,23 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
             ),
             Cell::from(format!("{:.3} ulp", report.implementation_ulp)),
             Cell::from(format!("{:.2} %", full.full_range_abs * 100.0)),
-            verdict.into(),
+            short_verdict(report, Range::Epicentre).into(),
+            short_verdict(report, Range::All).into(),
         ]);
     }
     let Some(bound) = reports.first().map(|report| report.bound) else { return Ok(()) };
     writeln!(
         out,
-        "Total error on the epicentre (x^n >= Q) against the bound of {}:\n",
+        "Worst total error on the epicentre (x^n >= Q) and on [0, 1], each against the bound of {}:\n",
         percent(bound)
     )?;
     rows.print(out, Format::Table, 6)
 }
 
-fn first_failure(report: &ErrorReport) -> String {
-    report
-        .rows
-        .iter()
-        .find(|row| !row.holds)
-        .map_or_else(String::new, |row| format!("fails from n = {}", row.n))
+/// The same in a word or two.
+fn short_verdict(report: &ErrorReport, range: Range) -> String {
+    let first = report.rows.iter().find(|row| !range.holds(report, row));
+    first.map_or_else(|| "holds".to_owned(), |row| format!("fails, n = {}", row.n))
 }
 
 /// Every exponent of every report; the preset's name in front where there are several.

@@ -21,8 +21,8 @@ use super::{Out, Outcome, output};
 use crate::render::{Part, Pipeline, Samples, Which, samples};
 use crate::scene::Scene;
 use crate::specialise::{
-    Certificate, Demand, Display, LeftOut, Proved, Row, demands, is_guarded, left_out,
-    pixels_outside, points, reduce, rows,
+    self, Asked, Certificate, Demand, Display, Held, LeftOut, Proved, Row, demands, is_guarded,
+    left_out, pixels_outside, points, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -34,12 +34,13 @@ use crate::specialise::{
 /// bits, or with --allow-codes that they differ by at most so many display codes of the highlight at full strength,
 /// in the scene's curve; then the output has fewer bits and widths are derived anew. An x outside the domain gives 0
 /// and sets the status flag out_of_domain. With --check, a certificate is checked: both configurations are built
-/// again and every x is tried again; with a scene, its domain is bounded again too. Exit status 1 says that a
-/// certificate does not hold.
+/// again and every x is tried again. Nothing in it is believed: with a scene, its display and its demands are held
+/// against it, with --preset or --config the configuration that it is about, with --allow-codes the most codes that
+/// answers may differ by; what was not given is named. Exit status 1 says that a certificate does not hold.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk specialise scene.json --preset paper --out small\n          \
-                        blysk specialise --check small/certificate.json"
+                        blysk specialise scene.json --preset paper --check small/certificate.json"
 )]
 pub(super) struct Args {
     /// The scene, as JSON; docs/scenes has some to start from.
@@ -50,7 +51,8 @@ pub(super) struct Args {
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Allow answers that differ by up to this many display codes; without it they are the same bits.
+    /// Allow answers that differ by up to this many display codes; without it they are the same bits. With --check, refuse
+    /// a certificate of more.
     #[arg(long, value_name = "CODES")]
     allow_codes: Option<u16>,
     /// How many vectors.
@@ -64,7 +66,7 @@ pub(super) struct Args {
     #[arg(long, requires = "out")]
     synth: bool,
     /// Check this certificate instead.
-    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "preset", "config", "allow_codes", "synth"])]
+    #[arg(long, value_name = "CERTIFICATE", conflicts_with_all = ["out", "synth"])]
     check: Option<PathBuf>,
     /// How to print what was left out.
     #[arg(long, value_enum, default_value_t)]
@@ -110,7 +112,7 @@ impl Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let loaded = args.scene.as_ref().map(|path| load(path)).transpose()?;
     if let Some(path) = &args.check {
-        return check(path, loaded.as_ref().map(|loaded| &loaded.scene), out);
+        return check(args, path, loaded.as_ref().map(|loaded| &loaded.scene), out);
     }
     let Some(Loaded { scene, files }) = loaded else { bail!("give a scene") };
     let Some(source) = args.configuration.design()? else {
@@ -330,31 +332,33 @@ fn written_with(certificate: &Path) -> Result<Option<usize>, ListError> {
     }
 }
 
-fn check(path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
+fn check(
+    args: &Args,
+    path: &Path,
+    scene: Option<&Scene>,
+    out: &mut Out,
+) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text = text_file::read(path, text_file::CERTIFICATE)?;
-    let held = Certificate::from_json(&text).and_then(|certificate| {
-        let bar = Bar::new(Some(certificate.inputs()));
-        certificate.check(&bar)?;
-        bar.finish();
-        if let Some(scene) = scene {
-            certificate.holds_for(&scene.name, &demands(scene))?;
-        }
-        Ok(certificate)
-    });
+    let source = args.configuration.config()?;
+    let asked = Asked { scene, source: source.as_ref(), codes: args.allow_codes };
+    let bar = Bar::new(specialise::inputs(&text));
+    let held = specialise::check(&text, asked, &bar);
+    bar.finish();
     match held {
-        Ok(certificate) => match written_with(path) {
+        Ok(Held { statement, not_checked }) => match written_with(path) {
             Ok(files) => {
-                write_folded(out, &format!("{shown} holds: {}", certificate.statement))?;
-                write_folded(
-                    out,
-                    &match files {
-                        Some(count) => {
-                            format!("The {count} files beside it are those written with it.")
-                        }
-                        None => "It stands alone: files of hardware were not looked at.".to_owned(),
-                    },
-                )?;
+                write_folded(out, &format!("{shown} holds: {statement}"))?;
+                let beside = match files {
+                    Some(count) => {
+                        format!("The {count} files beside it are those written with it.")
+                    }
+                    None => "It stands alone: files of hardware were not looked at.".to_owned(),
+                };
+                write_folded(out, &beside)?;
+                for sentence in not_checked {
+                    write_folded(out, &sentence)?;
+                }
                 Ok(Outcome::Good)
             }
             Err(refused) => {

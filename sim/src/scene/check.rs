@@ -16,6 +16,8 @@ use super::{Light, Material, Origin, Scene, Shape, Surface, View, mesh};
 pub const GREATEST_SIDE: u32 = 16_384;
 /// Pixels times lights of a picture: 64 million take some 4 GB.
 pub const MOST_SAMPLES: u64 = 1 << 26;
+/// The bits that a display code can have.
+pub const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
 /// The most lights.
 const MOST_LIGHTS: usize = 16;
 /// The most materials; an index of 16 bits, with room.
@@ -68,7 +70,7 @@ pub(super) fn image(image: &said::Image, lights: usize) -> Checked<()> {
             format!("{pixels} pixels times {lights} lights; use at most {MOST_SAMPLES} together");
         return wrong("image", problem);
     }
-    if ![8, 10, 12].contains(&image.display_bits) {
+    if !DISPLAY_BITS.contains(&image.display_bits) {
         let problem = format!("{} bits; use 8, 10 or 12", image.display_bits);
         return wrong("image.display_bits", problem);
     }

@@ -76,6 +76,17 @@ pub enum Transfer {
     Linear,
 }
 
+impl Transfer {
+    /// The name in a scene.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Srgb => "srgb",
+            Self::Linear => "linear",
+        }
+    }
+}
+
 /// Which angle the highlight falls off with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -18,7 +18,7 @@ mod vector;
 
 use std::io;
 
-pub use check::{GREATEST_SIDE, MOST_SAMPLES};
+pub use check::{DISPLAY_BITS, GREATEST_SIDE, MOST_SAMPLES};
 pub use description::{Angle, Description, Image, Normals, Transfer};
 pub use error::{MeshError, SceneError};
 pub use knot::{Knot, KnotError};

@@ -1,25 +1,16 @@
 //! The certificate: over every (n, x) of the domain the smaller hardware answers as the source does, and refuses
 //! every x outside.
 //!
-//! It holds both configurations and what was found. Checking it builds both again and goes through every x again;
-//! of what was found it believes nothing.
+//! It holds both configurations and what was found. Of what it says nothing is believed: `check.rs`.
 
-use hw_model::config::{Config, ConfigError};
-use hw_model::design::{Design, DesignError};
+use std::fmt;
+
+use hw_model::config::Config;
+use hw_model::design::Design;
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
-use vectors::checksum::checksum;
-use vectors::limits::TooManyInputs;
 
-use super::compare::certify;
-use super::derive::Row;
-use crate::analysis::error_report::Progress;
-use crate::scene::Transfer;
-
-/// What the first line says.
-const FORMAT: &str = "blysk specialisation";
-/// What changes when an older program could not check what is written.
-const VERSION: u32 = 1;
+use crate::scene::{DISPLAY_BITS, Transfer};
+use crate::seal::{self, BrokenSeal, Sealed, Unreadable};
 
 /// How alike the answers are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +35,20 @@ pub struct Display {
     pub bits: u32,
     /// `srgb` or `linear`.
     pub transfer: Transfer,
+}
+
+impl Display {
+    /// The greatest code; 0 where the bits are not those of a scene.
+    #[must_use]
+    pub fn greatest_code(&self) -> u32 {
+        if DISPLAY_BITS.contains(&self.bits) { (1 << self.bits) - 1 } else { 0 }
+    }
+}
+
+impl fmt::Display for Display {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "display codes of {} bits, {}", self.bits, self.transfer.name())
+    }
 }
 
 /// One exponent of the domain, and what was found there.
@@ -94,48 +99,17 @@ pub struct Certificate {
     sha256: String,
 }
 
-/// Why a certificate does not hold.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum Refused {
-    /// No JSON, or other fields.
-    #[error("it is not a certificate as blysk specialise writes it: {0}")]
-    Json(#[from] serde_json::Error),
-    /// Something else, or of another version.
-    #[error("it says format {0:?}, version {1}; this program checks {FORMAT:?}, version {VERSION}")]
-    Version(String, u32),
-    /// Another content than was sealed.
-    #[error("sha256: the content is not the one that was sealed")]
-    Seal,
-    /// One of the configurations.
-    #[error("configuration: {0}")]
-    Config(#[from] ConfigError),
-    /// One of the configurations has no hardware.
-    #[error("configuration: {0}")]
-    Design(#[from] DesignError),
-    /// More x than are gone through.
-    #[error(transparent)]
-    TooMany(#[from] TooManyInputs),
-    /// An exponent that one of the two has not, or another domain than the configuration's.
-    #[error("parts[{index}], n = {n}: {problem}")]
-    Part {
-        /// Its place.
-        index: usize,
-        /// n.
-        n: f64,
-        /// What is wrong.
-        problem: String,
-    },
-    /// Going through every x again finds something else.
-    #[error("{field}: the certificate says {said}, and every x says {found}")]
-    Found {
-        /// Which field.
-        field: String,
-        /// What stands there.
-        said: String,
-        /// What is so.
-        found: String,
-    },
+impl Sealed for Certificate {
+    const FORMAT: &'static str = "blysk specialisation";
+    const VERSION: u32 = 2;
+    const WRITER: &'static str = "blysk specialise --out";
+
+    fn sha256(&self) -> &str {
+        &self.sha256
+    }
+    fn sha256_mut(&mut self) -> &mut String {
+        &mut self.sha256
+    }
 }
 
 impl Certificate {
@@ -148,34 +122,25 @@ impl Certificate {
         (proved, parts): (Proved, Vec<Part>),
         (source, specialised): (&Design, &Design),
     ) -> Self {
-        let mut certificate = Self {
-            format: FORMAT.to_owned(),
-            version: VERSION,
+        seal::seal(Self {
+            format: Self::FORMAT.to_owned(),
+            version: Self::VERSION,
             scene: scene.to_owned(),
             command: command.to_owned(),
-            statement: statement(proved, &parts, source.config(), specialised.config()),
+            statement: statement(proved, display, &parts, source.config(), specialised.config()),
             proved,
             display,
             parts,
             source: source.config().clone(),
             specialised: specialised.config().clone(),
             sha256: String::new(),
-        };
-        certificate.sha256 = certificate.digest();
-        certificate
-    }
-
-    fn digest(&self) -> String {
-        let open = Self { sha256: String::new(), ..self.clone() };
-        // Reading from memory cannot fail; an empty digest would fit no certificate that was sealed.
-        checksum(open.to_json().as_bytes()).map_or_else(|_| String::new(), |sum| sum.sha256)
+        })
     }
 
     /// As JSON, in the one way to write it.
     #[must_use]
     pub fn to_json(&self) -> String {
-        // Plain fields and string keys: serialising cannot fail.
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
+        seal::to_json(self)
     }
 
     /// Points that were compared.
@@ -191,117 +156,51 @@ impl Certificate {
         parts.fold(0, |sum, part| sum.saturating_add(part.points).saturating_add(part.refused))
     }
 
-    /// Reads a certificate, and checks that it is as it was sealed.
-    ///
-    /// # Errors
-    /// When it is none, or not as it was written.
-    pub fn from_json(text: &str) -> Result<Self, Refused> {
-        let certificate: Self = serde_json::from_str(text)?;
-        if certificate.format != FORMAT || certificate.version != VERSION {
-            return Err(Refused::Version(certificate.format, certificate.version));
-        }
-        if certificate.to_json() != text || certificate.digest() != certificate.sha256 {
-            return Err(Refused::Seal);
-        }
-        Ok(certificate)
+    /// The greatest difference of intensities, as a fraction of full intensity.
+    #[must_use]
+    pub fn greatest(&self) -> f64 {
+        greatest(&self.parts)
     }
 
-    /// Builds both hardwares again and goes through every x again.
+    /// Reads a certificate. That it can be read says nothing of its truth.
     ///
     /// # Errors
-    /// When anything is not as the certificate says.
-    pub fn check(&self, progress: &dyn Progress) -> Result<(), Refused> {
-        let designs = [&self.source, &self.specialised].map(|config| {
-            config.check()?;
-            Ok::<_, Refused>(Design::new(config.clone())?)
-        });
-        let [source, specialised] = designs;
-        let (source, specialised) = (source?, specialised?);
-        let rows = self.rows(&source, &specialised)?;
-        let allowed = match self.proved {
-            Proved::BitIdentical => None,
-            Proved::Codes { allowed, .. } => Some(allowed),
-        };
-        let found = certify(&source, &specialised, &rows, self.display, allowed, progress)?;
-        let again =
-            Self::new(&self.scene, &self.command, self.display, found, (&source, &specialised));
-        let differs = |field: &str, said: &dyn std::fmt::Debug, found: &dyn std::fmt::Debug| {
-            let (said, found) = (format!("{said:?}"), format!("{found:?}"));
-            Err(Refused::Found { field: field.to_owned(), said, found })
-        };
-        if again.proved != self.proved {
-            return differs("proved", &self.proved, &again.proved);
-        }
-        if let Some((said, found)) = self.parts.iter().zip(&again.parts).find(|(a, b)| a != b) {
-            return differs("parts", said, found);
-        }
-        if again.statement != self.statement {
-            return differs("statement", &self.statement, &again.statement);
-        }
-        if again == *self { Ok(()) } else { Err(Refused::Seal) }
+    /// When it is none.
+    pub fn parse(text: &str) -> Result<Self, Unreadable> {
+        seal::parse(text)
     }
 
-    /// Holds the domain against what a scene asks.
+    /// The text it was read from is what was sealed.
     ///
     /// # Errors
-    /// When the scene is another one, or asks for more.
-    pub fn holds_for(&self, scene: &str, demands: &[super::Demand]) -> Result<(), Refused> {
-        if self.scene != scene {
-            let (said, found) = (self.scene.clone(), scene.to_owned());
-            return Err(Refused::Found { field: "scene".to_owned(), said, found });
-        }
-        for demand in demands {
-            let n = demand.exponent;
-            let place = self.parts.iter().position(|part| part.n == n);
-            let covered = place.is_some_and(|index| self.parts[index].least <= demand.least);
-            if !covered {
-                let problem = format!("the scene asks x from {}", demand.least);
-                return Err(Refused::Part { index: place.unwrap_or(self.parts.len()), n, problem });
-            }
-        }
-        Ok(())
-    }
-
-    /// The rows of the parts; a part must be what the specialised configuration answers.
-    fn rows(&self, source: &Design, specialised: &Design) -> Result<Vec<Row>, Refused> {
-        let demands: Vec<super::Demand> = self
-            .parts
-            .iter()
-            .map(|part| super::Demand {
-                exponent: part.n,
-                least: part.least,
-                greatest: 1.0,
-                mesh: false,
-            })
-            .collect();
-        let whole = |problem: String| Refused::Part { index: 0, n: f64::NAN, problem };
-        let rows =
-            super::derive::rows(source, &demands).map_err(|error| whole(error.to_string()))?;
-        let exponents = specialised.rom().exponents();
-        if !exponents.iter().eq(rows.iter().map(|row| row.demand.exponent)) {
-            return Err(whole(format!("the specialised ROM has n = {exponents}, and other parts")));
-        }
-        let domain = &specialised.config().domain;
-        let wrong =
-            domain.iter().zip(&rows).position(|(stated, row)| stated.least != row.demand.least);
-        match wrong {
-            Some(index) => Err(Refused::Part {
-                index,
-                n: domain[index].n,
-                problem: format!("the configuration's domain begins at {}", domain[index].least),
-            }),
-            None => Ok(rows),
-        }
+    /// When it is not.
+    pub fn check_seal(&self, text: &str) -> Result<(), BrokenSeal> {
+        seal::check(self, text)
     }
 }
 
-fn statement(proved: Proved, parts: &[Part], source: &Config, specialised: &Config) -> String {
+fn greatest(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.greatest).fold(0.0, f64::max)
+}
+
+fn statement(
+    proved: Proved,
+    display: Display,
+    parts: &[Part],
+    source: &Config,
+    specialised: &Config,
+) -> String {
     let points: u64 = parts.iter().map(|part| part.points).sum();
     let refused: u64 = parts.iter().map(|part| part.refused).sum();
     let how = match proved {
         Proved::BitIdentical => "the same bits".to_owned(),
-        Proved::Codes { allowed, greatest } => format!(
-            "display codes of the highlight at full strength that differ by at most {greatest} ({allowed} allowed)"
+        Proved::Codes { allowed, greatest: codes } => format!(
+            "display codes of the highlight at full strength that differ by at most {codes} of {} ({allowed} \
+             allowed; {} bits, {}), and intensities by at most {} of full intensity,",
+            display.greatest_code(),
+            display.bits,
+            display.transfer.name(),
+            greatest(parts)
         ),
     };
     let outside = if specialised.domain.is_empty() {

@@ -8,7 +8,8 @@ use hw_model::config::StatedWidths;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 
-use super::certificate::{Display, Part, Proved, Refused};
+use super::certificate::{Display, Part, Proved};
+use super::check::Refused;
 use super::compare::certify;
 use super::demand::Demand;
 use super::derive::{Row, SpecialiseError, derive, kept};

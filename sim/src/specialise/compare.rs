@@ -6,14 +6,13 @@ use hw_model::quantise::real;
 use rayon::prelude::*;
 use vectors::limits::{Sweep, TooManyInputs};
 
-use super::certificate::{Display, Part, Proved, Refused};
+use super::certificate::{Display, Part, Proved};
+use super::check::Refused;
 use super::derive::Row;
 use crate::analysis::error_report::Progress;
 use crate::render::Codes;
-use crate::scene::Image;
+use crate::scene::{DISPLAY_BITS, Image};
 
-/// Bits of the codes of the displays that a scene may have.
-const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
 /// x that are looked at together.
 const PIECE: i64 = 1 << 14;
 /// x that are evaluated side by side.
@@ -31,8 +30,8 @@ pub fn points(source: &Design, rows: &[Row]) -> Result<u64, TooManyInputs> {
 /// Goes through every x of the rows.
 ///
 /// # Errors
-/// When they are too many, a part has no word, an x that should be refused is answered, or answers differ by more than `allowed` codes
-/// (by anything, without it).
+/// When they are too many, a part has no word, an x that should be refused is answered, or answers differ by more than
+/// `allowed` codes (by anything, without it).
 pub fn certify(
     source: &Design,
     specialised: &Design,
@@ -43,9 +42,8 @@ pub fn certify(
 ) -> Result<(Proved, Vec<Part>), Refused> {
     points(source, rows)?;
     if !DISPLAY_BITS.contains(&display.bits) {
-        let (said, found) =
-            (display.bits.to_string(), format!("a display of {DISPLAY_BITS:?} bits"));
-        return Err(Refused::Found { field: "display.bits".to_owned(), said, found });
+        let problem = format!("{} bits; a scene has 8, 10 or 12", display.bits);
+        return Err(Refused::Field { field: "display.bits".to_owned(), problem });
     }
     let codes = Codes::new(&Image {
         width: 1,

@@ -6,10 +6,12 @@
 //! | `derive.rs` | the configuration that keeps what these need, its points where they were |
 //! | `codes.rs` | the same with fewer output bits, where display codes may differ |
 //! | `compare.rs` | every (n, x) through both |
-//! | `certificate.rs` | what was found; sealed, and checked by doing it again |
+//! | `certificate.rs` | what was found, sealed |
+//! | `check.rs` | the same found again, and held against what the user asks about |
 //! | `figures.rs` | what was left out, and why |
 
 mod certificate;
+mod check;
 mod codes;
 mod compare;
 mod demand;
@@ -18,7 +20,8 @@ mod figures;
 mod space;
 mod tile;
 
-pub use certificate::{Certificate, Display, Part, Proved, Refused};
+pub use certificate::{Certificate, Display, Part, Proved};
+pub use check::{Asked, Held, Refused, check, inputs};
 pub use codes::{ReduceError, pixels_outside, reduce};
 pub use compare::{certify, points};
 pub use demand::{Demand, demands};

@@ -5,6 +5,7 @@
 
 mod certify;
 mod check;
+mod closed_output;
 mod coefficients;
 mod design;
 mod help;

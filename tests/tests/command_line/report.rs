@@ -34,6 +34,33 @@ fn the_exit_status_is_the_verdict() {
     }
 }
 
+/// A verdict names its range, and that on the other range stands beside it.
+#[test]
+fn both_ranges_have_a_verdict() {
+    let bench = bench!();
+    let held = bench.good("report --config small.json --bound 0.02");
+    let verdicts: Vec<&str> = held.lines().filter(|line| line.starts_with("bound on ")).collect();
+    assert_eq!(verdicts.len(), 2, "{held}");
+    assert!(verdicts[0].starts_with("bound on the epicentre ") && verdicts[0].contains("holds"));
+    assert!(
+        verdicts[1].starts_with("bound on all of [0, 1] ")
+            && verdicts[1].contains("DOES NOT HOLD for ")
+    );
+    let run = bench.run("report --config small.json --bound 0.02 --range all");
+    assert_eq!((run.status, run.stdout), (1, held));
+    let both = bench.good("report --config small.json --bound 0.2 --range all");
+    assert_eq!(both.matches("holds for every exponent").count(), 2, "{both}");
+    // Of every preset only `precise` keeps 0.67 % on all of [0, 1].
+    let all = bench.run("report --all-presets");
+    assert_eq!(all.status, 1);
+    let holds = |name: &str| {
+        let line = all.stdout.lines().find(|line| line.contains(name)).expect("a line of it");
+        line.matches("holds").count()
+    };
+    assert_eq!((holds("precise "), holds("compact "), holds("schlick ")), (2, 1, 0), "{all:#?}");
+    assert!(all.stdout.lines().all(|line| line.chars().count() <= 100), "{all:#?}");
+}
+
 /// One part in 10^15 decides: the bound is inclusive.
 #[test]
 fn the_bound_itself_still_holds() {

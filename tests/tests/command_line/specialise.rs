@@ -120,7 +120,7 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
         ("digit", "\"points\": 5", "\"points\": 6"),
         ("space", "\n", "\n\n"),
         ("least", "\"least\": 0.993", "\"least\": 0.992"),
-        ("fields", "\"version\": 1,", ""),
+        ("fields", "\"version\": 2,", ""),
     ] {
         assert!(text.contains(from), "{wrong}: {text}");
         bench.write("wrong.json", text.replacen(from, to, 1));

@@ -6,7 +6,22 @@ use hw_model::highlight::{ExactPower, phong};
 
 use super::contender::{Contender, Work};
 use super::inputs::{Inputs, Samples};
+use super::table::stand;
 use super::{ParetoReport, Row};
+
+/// What [`differences`] cannot look at, in words: nothing where the table is of the inputs that are measured. A mean
+/// square is one of all inputs of the table, and so is the number of those.
+#[must_use]
+pub fn not_checked(kept: &[Row], inputs: &Inputs) -> Option<String> {
+    let every = kept.first().map_or(1, |row| row.every);
+    (every != inputs.every).then(|| {
+        format!(
+            "not checked, as every {} x was measured here: that the table is of every {every}, and its columns \
+             epicentre_rms and whole_rms; say --every {every} to check them",
+            inputs.every
+        )
+    })
+}
 
 /// What does not hold of `kept`, in words; nothing if all does. `made` is of a sample of the same inputs.
 #[must_use]
@@ -26,6 +41,9 @@ pub fn differences(
         )];
     }
     let mut found = Vec::new();
+    let same_inputs = not_checked(kept, inputs).is_none();
+    found.extend(one_every(kept));
+    found.extend(fronts(kept));
     for ((kept, made), contender) in kept.iter().zip(&made.contenders).zip(contenders) {
         let name = &kept.contender;
         found.extend(costs(kept).differences(&costs(made)).map(|d| format!("{name}: {d}")));
@@ -37,12 +55,68 @@ pub fn differences(
                 kept.difference(&made, contender, inputs).map(|d| format!("{name}, {place}: {d}")),
             );
         }
+        if same_inputs {
+            found.extend(mean_squares(kept, made).map(|d| format!("{name}: {d}")));
+        }
     }
     found
 }
 
+/// A table is of every so many x, the same for all.
+fn one_every(kept: &[Row]) -> Option<String> {
+    let every = kept.first()?.every;
+    let other = kept.iter().find(|row| row.every != every || row.every == 0)?;
+    Some(format!(
+        "{}: every {} x, where the table begins with every {every}; a table is of one number of x",
+        other.contender, other.every
+    ))
+}
+
+/// Who is on the fronts, and dominated by whom, follows from the other columns.
+fn fronts(kept: &[Row]) -> impl Iterator<Item = String> {
+    let mut made = kept.to_vec();
+    stand(&mut made);
+    let standing = |row: &Row| {
+        let said = |front: Option<bool>, by: &Option<String>| match (front, by) {
+            (None, None) => "not compared".to_owned(),
+            (Some(true), None) => "on the front".to_owned(),
+            (Some(false), Some(by)) => format!("dominated by {by}"),
+            _ => "neither on the front nor dominated".to_owned(),
+        };
+        [
+            said(row.hardware_epicentre_front, &row.hardware_epicentre_dominated_by),
+            said(row.hardware_whole_front, &row.hardware_whole_dominated_by),
+        ]
+    };
+    let pairs: Vec<_> = kept.iter().map(standing).zip(made.iter().map(standing)).collect();
+    let names: Vec<String> = kept.iter().map(|row| row.contender.clone()).collect();
+    names.into_iter().zip(pairs).flat_map(|(name, (kept, made))| {
+        let places = ["epicentre", "[0, 1]"].into_iter().zip(kept.into_iter().zip(made));
+        places.filter(|(_, (kept, made))| kept != made).map(move |(place, (kept, made))| {
+            format!("{name}, hardware by error on {place}: {kept}, and by the other columns {made}")
+        })
+    })
+}
+
+/// The roots of mean squares, where the table is of the same inputs.
+fn mean_squares(kept: &Row, made: &Row) -> impl Iterator<Item = String> {
+    let same = |kept: Option<f64>, made: Option<f64>| match (kept, made) {
+        (Some(kept), Some(made)) => (kept - made).abs() <= 1e-12 * made,
+        (kept, made) => kept == made,
+    };
+    let pairs = [
+        ("epicentre_rms", kept.epicentre_rms, made.epicentre_rms),
+        ("whole_rms", kept.whole_rms, made.whole_rms),
+    ];
+    let shown = |rms: Option<f64>| rms.map_or_else(|| "none".to_owned(), |rms| format!("{rms:e}"));
+    pairs
+        .into_iter()
+        .filter(move |&(_, kept, made)| !same(kept, made))
+        .map(move |(column, kept, made)| format!("{column}: {}, now {}", shown(kept), shown(made)))
+}
+
 /// What follows from the configuration alone, each with what it is called in a sentence.
-struct Costs([(&'static str, String); 5]);
+struct Costs([(&'static str, String); 7]);
 
 impl Costs {
     /// A sentence for each that is another one.
@@ -61,6 +135,8 @@ impl Costs {
 fn costs(row: &Row) -> Costs {
     let or_none = |bits: Option<u64>| bits.map_or_else(|| "none".to_owned(), |b| b.to_string());
     Costs([
+        ("kind", row.kind.clone()),
+        ("multiplier_bits", or_none(row.multiplier_bits)),
         ("bits of table or ROM", row.storage_bits.to_string()),
         ("latency", or_none(row.latency)),
         ("multipliers", row.multipliers.clone().unwrap_or_else(|| "none".to_owned())),
@@ -158,11 +234,34 @@ mod tests {
             (|row| row.epicentre_worst_x = Some(0.3), "is not one of"),
             (|row| row.epicentre_worst_n = Some(9.0), "not measured"),
             (|row| row.contender.push('!'), "the contenders were"),
+            (|row| row.kind = "f16".to_owned(), "kind of the table: f16"),
+            (|row| row.multiplier_bits = Some(1), "multiplier_bits of the table: 1"),
+            (|row| row.every = 7, "a table is of one number of x"),
+            (|row| row.hardware_whole_front = Some(true), "on the front"),
+            (|row| row.hardware_epicentre_dominated_by = Some("me".to_owned()), "epicentre"),
         ] {
             let mut kept = all.contenders.clone();
             spoil(&mut kept[0]);
             let found = see(&kept);
             assert!(found.len() == 1 && found[0].contains(said), "{said}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn mean_squares_are_checked_where_the_inputs_are_the_same() {
+        let all = compare(&inputs(1), None, &[], &Quiet).unwrap();
+        let contenders = Contenders::new(&inputs(1)).unwrap().list;
+        assert_eq!(not_checked(&all.contenders, &inputs(1)), None);
+        assert!(not_checked(&all.contenders, &inputs(7)).unwrap().contains("whole_rms"));
+        for spoil in [
+            (|row| row.epicentre_rms = row.epicentre_rms.map(|rms| rms * 1.001)) as fn(&mut Row),
+            |row| row.whole_rms = row.whole_rms.map(|rms| rms * (1.0 + 1e-9)),
+            |row| row.whole_rms = None,
+        ] {
+            let mut kept = all.contenders.clone();
+            spoil(&mut kept[2]);
+            let found = differences(&kept, &all, &contenders, &inputs(1));
+            assert!(found.len() == 1 && found[0].contains("_rms"), "{found:?}");
         }
     }
 }

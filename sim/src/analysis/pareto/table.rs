@@ -142,15 +142,12 @@ pub struct ParetoReport {
 type Standing = (Option<bool>, Option<String>);
 
 /// The standing of everybody who has these coordinates.
-fn standings<const AXES: usize>(
-    list: &[Contender],
-    points: &[Option<[f64; AXES]>],
-) -> Vec<Standing> {
+fn standings<const AXES: usize>(names: &[String], points: &[Option<[f64; AXES]>]) -> Vec<Standing> {
     let present: Vec<usize> = (0..points.len()).filter(|&at| points[at].is_some()).collect();
     let compared: Vec<[f64; AXES]> = points.iter().flatten().copied().collect();
     let mut standings = vec![(None, None); points.len()];
     for (&place, dominator) in present.iter().zip(dominators(&compared)) {
-        let name = dominator.map(|by| list[present[by]].name.clone());
+        let name = dominator.map(|by| names[present[by]].clone());
         standings[place] = (Some(name.is_none()), name);
     }
     standings
@@ -162,46 +159,39 @@ fn worst(errors: &Errors) -> Option<f64> {
 
 /// The lines of `pareto.csv`.
 pub(super) fn rows(list: &[Contender], errors: &[ContenderErrors], inputs: &Inputs) -> Vec<Row> {
-    let costs: Vec<Option<HardwareCost>> =
-        list.iter().map(|contender| contender.engine.cost()).collect();
-    let standing = |part: fn(&ContenderErrors) -> &Errors| {
-        let points: Vec<_> = costs
-            .iter()
-            .zip(errors)
-            .map(|(cost, errors)| point(cost.as_ref()?, part(errors)))
-            .collect();
-        standings(list, &points).into_iter()
-    };
-    let standings = standing(|e| &e.epicentre).zip(standing(|e| &e.whole));
-    list.iter()
-        .zip(errors)
-        .zip(&costs)
-        .zip(standings)
-        .map(|(((contender, errors), cost), (epicentre, whole))| Row {
-            hardware_epicentre_front: epicentre.0,
-            hardware_epicentre_dominated_by: epicentre.1,
-            hardware_whole_front: whole.0,
-            hardware_whole_dominated_by: whole.1,
-            ..row(contender, errors, cost.as_ref(), inputs)
-        })
-        .collect()
+    let mut rows: Vec<Row> =
+        list.iter().zip(errors).map(|(contender, errors)| row(contender, errors, inputs)).collect();
+    stand(&mut rows);
+    rows
 }
 
-/// What hardware is compared by, the error last.
-fn point(cost: &HardwareCost, errors: &Errors) -> Option<[f64; 5]> {
-    let bits = [cost.multiplier_bits(), cost.divider_bits, cost.rom_bits, cost.latency];
+/// Fills in who is on the fronts of hardware, which follows from the other columns.
+pub(super) fn stand(rows: &mut [Row]) {
+    let names: Vec<String> = rows.iter().map(|row| row.contender.clone()).collect();
+    let standing = |error: fn(&Row) -> Option<f64>| {
+        let points: Vec<_> = rows.iter().map(|row| point(row, error(row))).collect();
+        standings(&names, &points)
+    };
+    let epicentre = standing(|row| row.epicentre_worst);
+    let whole = standing(|row| row.whole_worst);
+    for ((row, epicentre), whole) in rows.iter_mut().zip(epicentre).zip(whole) {
+        (row.hardware_epicentre_front, row.hardware_epicentre_dominated_by) = epicentre;
+        (row.hardware_whole_front, row.hardware_whole_dominated_by) = whole;
+    }
+}
+
+/// What hardware is compared by, the error last; none for a processor.
+fn point(row: &Row, error: Option<f64>) -> Option<[f64; 5]> {
+    let bits = [row.multiplier_bits?, row.divider_bits?, row.storage_bits, row.latency?];
     let [multipliers, divider, rom, latency] = bits.map(|bits| bits as f64);
-    Some([multipliers, divider, rom, latency, worst(errors)?])
+    Some([multipliers, divider, rom, latency, error?])
 }
 
 /// A line without its standings.
-fn row(
-    contender: &Contender,
-    errors: &ContenderErrors,
-    cost: Option<&HardwareCost>,
-    inputs: &Inputs,
-) -> Row {
+fn row(contender: &Contender, errors: &ContenderErrors, inputs: &Inputs) -> Row {
     let ContenderErrors { epicentre, whole } = errors;
+    let cost = contender.engine.cost();
+    let cost = cost.as_ref();
     let rms = |errors: &Errors| (errors.count > 0).then(|| errors.rms());
     let n = |errors: &Errors| Some(inputs.exponents.as_slice()[errors.worst?.row]);
     let x = |errors: &Errors| Some(inputs.real(errors.worst?.x));
@@ -241,6 +231,7 @@ pub(super) fn timing_rows(
     times: &[ContenderTimes],
     every: u64,
 ) -> Vec<TimingRow> {
+    let names: Vec<String> = list.iter().map(|contender| contender.name.clone()).collect();
     let standing = |time: fn(&ContenderTimes) -> Option<f64>,
                     part: fn(&ContenderErrors) -> &Errors| {
         let points: Vec<_> = times
@@ -248,7 +239,7 @@ pub(super) fn timing_rows(
             .zip(errors)
             .map(|(times, errors)| Some([time(times)?, worst(part(errors))?]))
             .collect();
-        standings(list, &points).into_iter()
+        standings(&names, &points).into_iter()
     };
     let [block, mixed]: [fn(&ContenderTimes) -> Option<f64>; 2] =
         [|times| Some(times.block.median), |times| Some(times.mixed?.median)];

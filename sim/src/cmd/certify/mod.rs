@@ -8,6 +8,7 @@ use std::str::FromStr;
 
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
+use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method, UnknownMethod};
@@ -17,7 +18,7 @@ use vectors::text_file::{self, CERTIFICATE};
 use super::bar::Bar;
 use super::configuration::{find_preset, load_config};
 use super::report::bound;
-use super::table::Format;
+use super::table::{Format, write_folded};
 use super::{Out, Outcome, output};
 use crate::analysis::error_report::Progress;
 use crate::certify::certificate::{Certificate, Claim};
@@ -25,6 +26,7 @@ use crate::certify::check::{Checked, check};
 use crate::certify::claim::{Claims, Region};
 use crate::certify::hardware::{certify_hardware, points};
 use crate::certify::search::{claim_every_exponent, claim_exponent};
+use crate::seal::identity;
 
 /// Enclose the greatest error rigorously, and write or check a certificate of it.
 ///
@@ -66,23 +68,35 @@ pub(super) struct Args {
 }
 
 #[derive(ClapArgs)]
-#[group(required = true, multiple = false)]
+#[group(required = true, multiple = true)]
 struct Subject {
     /// Methods at these exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
-    #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
+    #[arg(long, allow_hyphen_values = true, value_name = "LIST",
+          conflicts_with_all = ["all_real_n", "preset", "config", "check"])]
     exponents: Option<Exponents>,
     /// Methods at every real n >= 1, the limit included, on the epicentre.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["preset", "config", "check"])]
     all_real_n: bool,
-    /// A preset, down to its bits; `blysk presets` lists them.
-    #[arg(long, value_name = "NAME")]
+    /// A preset, down to its bits; `blysk presets` lists them. With --check: what the certificate must be about.
+    #[arg(long, value_name = "NAME", conflicts_with = "config")]
     preset: Option<String>,
     /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Check this certificate.
+    /// Check this certificate. What it is about is printed; say --preset or --config to demand a configuration.
     #[arg(long, value_name = "FILE")]
     check: Option<PathBuf>,
+}
+
+impl Subject {
+    /// The configuration, where one is given.
+    fn configuration(&self) -> anyhow::Result<Option<Config>> {
+        match (&self.preset, &self.config) {
+            (Some(name), _) => Ok(Some(find_preset(name)?.config()?)),
+            (None, Some(path)) => Ok(Some(load_config(path)?)),
+            (None, None) => Ok(None),
+        }
+    }
 }
 
 /// One method, or all of them.
@@ -102,7 +116,8 @@ impl FromStr for Methods {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if let Some(path) = &args.subject.check {
-        return check_file(path, args.bound, out);
+        let asked = args.subject.configuration()?;
+        return check_file(path, asked.as_ref(), args.bound, out);
     }
     if args.bound.is_some() && !args.has_epicentre() {
         bail!(
@@ -221,32 +236,57 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
 }
 
 /// What was accepted is shown in full: a certificate of [0, 9] is as true as one of a narrow interval.
-fn check_file(path: &Path, bound: Option<f64>, out: &mut Out) -> anyhow::Result<Outcome> {
+fn check_file(
+    path: &Path,
+    asked: Option<&Config>,
+    bound: Option<f64>,
+    out: &mut Out,
+) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text = text_file::read(path, CERTIFICATE)?;
     let certificate = Certificate::parse(&text).with_context(|| shown.to_string())?;
-    let work = match certificate.claim() {
-        Claim::Hardware(claim) => Some(claim.points),
-        _ => None,
+    let (about, work) = match certificate.claim() {
+        Claim::Hardware(claim) => (Some(&claim.configuration), Some(claim.points)),
+        _ => (None, None),
     };
+    if let Some(refused) = asked.and_then(|asked| not_about(about, asked)) {
+        write_folded(out, &format!("REFUSED {refused}"))?;
+        return Ok(Outcome::Fails);
+    }
     let bar = Bar::new(work);
     let result = check(&certificate, &text, &bar);
     bar.finish();
     match result {
         Ok(checked) => {
-            super::table::write_folded(out, certificate.statement())?;
+            write_folded(out, certificate.statement())?;
             writeln!(out)?;
             print::claim(certificate.claim(), Format::Table, out)?;
             writeln!(out, "\nACCEPTED {}", looked_at(checked))?;
+            if let (Some(about), None) = (about, asked) {
+                write_folded(out, &identity(about))?;
+            }
             match bound {
                 Some(bound) => verdict(bound, certificate.claim(), Format::Table, out),
                 None => Ok(Outcome::Good),
             }
         }
         Err(refused) => {
-            super::table::write_folded(out, &format!("REFUSED {refused}"))?;
+            write_folded(out, &format!("REFUSED {refused}"))?;
             Ok(Outcome::Fails)
         }
+    }
+}
+
+/// Why the certificate is not about the configuration that was asked about.
+fn not_about(about: Option<&Config>, asked: &Config) -> Option<String> {
+    let name = &asked.name;
+    match about {
+        Some(about) if about == asked => None,
+        Some(about) if about.name == *name => {
+            Some(format!("configuration: it is about another configuration of the name {name}"))
+        }
+        Some(about) => Some(format!("configuration: it is about {}, not {name}", about.name)),
+        None => Some(format!("it is about methods, and not about the configuration {name}")),
     }
 }
 
