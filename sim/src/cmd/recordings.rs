@@ -15,8 +15,22 @@ const NAMES: [&str; 2] = ["trace.csv", "waves.vcd"];
 
 /// The files of a run, which have no names before it is over.
 pub(super) enum Recordings {
-    Files { trace: Option<Draft>, waves: Option<(WaveFormat, Draft)>, staging: Staging },
-    Directory { trace: OutputFile, waves: OutputFile, set: OutputSet },
+    Files(Box<Files>),
+    Directory(Box<Directory>),
+}
+
+/// Files at any places.
+pub(super) struct Files {
+    trace: Option<Draft>,
+    waves: Option<(WaveFormat, Draft)>,
+    staging: Staging,
+}
+
+/// A directory with both.
+pub(super) struct Directory {
+    trace: OutputFile,
+    waves: OutputFile,
+    set: OutputSet,
 }
 
 impl Recordings {
@@ -38,23 +52,26 @@ impl Recordings {
             let path = waves.path().display();
             bail!("--waves {path}: FST is not written in order, which a pipe asks for; use .vcd");
         }
-        Ok(Self::Files { trace, waves: format.zip(waves), staging })
+        Ok(Self::Files(Box::new(Files { trace, waves: format.zip(waves), staging })))
     }
 
     pub(super) fn in_directory(directory: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let mut set = output::set(directory, "simulate", inputs, NAMES)?;
         let [trace, waves] = NAMES;
-        Ok(Self::Directory { trace: set.file(trace)?, waves: set.file(waves)?, set })
+        let (trace, waves) = (set.file(trace)?, set.file(waves)?);
+        Ok(Self::Directory(Box::new(Directory { trace, waves, set })))
     }
 
     /// What to write the trace and the waves to.
     pub(super) fn targets(&mut self) -> (Option<Target<'_>>, Option<(WaveFormat, Target<'_>)>) {
         match self {
-            Self::Files { trace, waves, .. } => {
+            Self::Files(files) => {
+                let Files { trace, waves, .. } = &mut **files;
                 let waves = waves.as_mut().map(|(format, file)| (*format, Target::File(file)));
                 (trace.as_mut().map(Target::File), waves)
             }
-            Self::Directory { trace, waves, .. } => {
+            Self::Directory(directory) => {
+                let Directory { trace, waves, .. } = &mut **directory;
                 (Some(Target::OfSet(trace)), Some((WaveFormat::Vcd, Target::OfSet(waves))))
             }
         }
@@ -63,7 +80,8 @@ impl Recordings {
     /// Gives the files their names. True where one went to standard output, which then has nothing else.
     pub(super) fn commit(self) -> anyhow::Result<bool> {
         match self {
-            Self::Files { trace, waves, mut staging } => {
+            Self::Files(files) => {
+                let Files { trace, waves, mut staging } = *files;
                 let files: Vec<Draft> =
                     trace.into_iter().chain(waves.map(|(_, file)| file)).collect();
                 let alone = files.iter().any(Draft::is_standard_output);
@@ -73,7 +91,8 @@ impl Recordings {
                 staging.commit()?;
                 Ok(alone)
             }
-            Self::Directory { trace, waves, mut set } => {
+            Self::Directory(directory) => {
+                let Directory { trace, waves, mut set } = *directory;
                 set.keep(trace)?;
                 set.keep(waves)?;
                 set.commit()?;
