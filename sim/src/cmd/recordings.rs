@@ -16,19 +16,25 @@ const NAMES: [&str; 3] = ["trace.csv", "waves.vcd", "waves.gtkw"];
 
 /// The files of a run, which have no names before it is over.
 pub(super) enum Recordings {
-    Files {
-        trace: Option<Draft>,
-        waves: Option<(WaveFormat, Draft)>,
-        /// What GTKWave shows of the waves, where these are a file.
-        save: Option<Draft>,
-        staging: Staging,
-    },
-    Directory {
-        trace: OutputFile,
-        waves: OutputFile,
-        save: OutputFile,
-        set: OutputSet,
-    },
+    Files(Box<Files>),
+    Directory(Box<Directory>),
+}
+
+/// Files at any places.
+pub(super) struct Files {
+    trace: Option<Draft>,
+    waves: Option<(WaveFormat, Draft)>,
+    /// What GTKWave shows of the waves, where these are a file.
+    save: Option<Draft>,
+    staging: Staging,
+}
+
+/// A directory with all of them.
+pub(super) struct Directory {
+    trace: OutputFile,
+    waves: OutputFile,
+    save: OutputFile,
+    set: OutputSet,
 }
 
 impl Recordings {
@@ -56,24 +62,26 @@ impl Recordings {
             bail!("--trace names the save file that comes with --waves; give it another name");
         }
         let save = save.map(|path| staging.begin(&path)).transpose()?;
-        Ok(Self::Files { trace, waves: format.zip(waves), save, staging })
+        Ok(Self::Files(Box::new(Files { trace, waves: format.zip(waves), save, staging })))
     }
 
     pub(super) fn in_directory(directory: &Path, inputs: &[PathBuf]) -> anyhow::Result<Self> {
         let mut set = output::set(directory, "simulate", inputs, NAMES)?;
         let [trace, waves, save] = NAMES;
         let [trace, waves, save] = [set.file(trace)?, set.file(waves)?, set.file(save)?];
-        Ok(Self::Directory { trace, waves, save, set })
+        Ok(Self::Directory(Box::new(Directory { trace, waves, save, set })))
     }
 
     /// Writes the save file of the waves of this configuration.
     pub(super) fn save(&mut self, name: &str, datapath: &Datapath) -> anyhow::Result<()> {
         let (dump, mut target) = match self {
-            Self::Files { waves: Some((_, waves)), save: Some(save), .. } => {
-                (waves.path().to_owned(), Target::File(save))
+            Self::Files(files) => match (&files.waves, &mut files.save) {
+                (Some((_, waves)), Some(save)) => (waves.path().to_owned(), Target::File(save)),
+                _ => return Ok(()),
+            },
+            Self::Directory(files) => {
+                (files.waves.path().to_owned(), Target::OfSet(&mut files.save))
             }
-            Self::Files { .. } => return Ok(()),
-            Self::Directory { waves, save, .. } => (waves.path().to_owned(), Target::OfSet(save)),
         };
         Ok(target.write_all(save_file(name, datapath, &dump).as_bytes())?)
     }
@@ -81,11 +89,13 @@ impl Recordings {
     /// What to write the trace and the waves to.
     pub(super) fn targets(&mut self) -> (Option<Target<'_>>, Option<(WaveFormat, Target<'_>)>) {
         match self {
-            Self::Files { trace, waves, .. } => {
+            Self::Files(files) => {
+                let Files { trace, waves, .. } = &mut **files;
                 let waves = waves.as_mut().map(|(format, file)| (*format, Target::File(file)));
                 (trace.as_mut().map(Target::File), waves)
             }
-            Self::Directory { trace, waves, .. } => {
+            Self::Directory(directory) => {
+                let Directory { trace, waves, .. } = &mut **directory;
                 (Some(Target::OfSet(trace)), Some((WaveFormat::Vcd, Target::OfSet(waves))))
             }
         }
@@ -94,7 +104,8 @@ impl Recordings {
     /// Gives the files their names. True where one went to standard output, which then has nothing else.
     pub(super) fn commit(self) -> anyhow::Result<bool> {
         match self {
-            Self::Files { trace, waves, save, mut staging } => {
+            Self::Files(files) => {
+                let Files { trace, waves, save, mut staging } = *files;
                 let waves = waves.map(|(_, file)| file);
                 let files: Vec<Draft> = trace.into_iter().chain(waves).chain(save).collect();
                 let alone = files.iter().any(Draft::is_standard_output);
@@ -104,7 +115,8 @@ impl Recordings {
                 staging.commit()?;
                 Ok(alone)
             }
-            Self::Directory { trace, waves, save, mut set } => {
+            Self::Directory(directory) => {
+                let Directory { trace, waves, save, mut set } = *directory;
                 for file in [trace, waves, save] {
                     set.keep(file)?;
                 }

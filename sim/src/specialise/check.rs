@@ -240,7 +240,7 @@ fn check_left_out(certificate: &Certificate, source: &Design, rows: &[Row]) -> R
     let mut wanted =
         kept(source, rows, &certificate.scene).map_err(|error| wrong(error.to_string()))?;
     // Widths are what is specialised; that answers stay the same is found by going through every x.
-    wanted.widths = specialised.widths.clone();
+    wanted.widths = specialised.widths;
     if let Proved::Codes { .. } = certificate.proved
         && is_shorter(specialised.output, wanted.output)
     {
