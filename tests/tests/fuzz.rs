@@ -1,7 +1,11 @@
 //! Every reader on its corpus, and on some hundred inputs that a seed makes of it. `make fuzz` goes on from here.
 
+use std::sync::{PoisonError, RwLock};
+
 use blysk_tests::fuzz::campaign::Campaign;
-use blysk_tests::fuzz::{Outcome, TARGETS, Target};
+use blysk_tests::fuzz::mutate::Form;
+use blysk_tests::fuzz::run::{Finding, run};
+use blysk_tests::fuzz::{MOST_MEMORY, Outcome, Place, TARGETS, Target};
 use peak_alloc::PeakAlloc;
 
 /// Counts what runs hold.
@@ -11,7 +15,11 @@ static ALLOCATOR: PeakAlloc = PeakAlloc;
 /// Altered inputs of each target.
 const ALTERED: usize = 400;
 
+/// What is held is counted for the whole process: what holds much on purpose does so alone.
+static ALONE: RwLock<()> = RwLock::new(());
+
 fn short(name: &str) {
+    let _others = ALONE.read().unwrap_or_else(PoisonError::into_inner);
     let target = Target::find(name).expect("a target");
     let mut campaign = Campaign::new(target, 1);
     let corpus = campaign.corpus_len();
@@ -69,4 +77,28 @@ fn the_same_seed_gives_the_same_inputs() {
             assert_eq!(first.input(), second.input(), "{}", target.name);
         }
     }
+}
+
+fn panics(input: &[u8], _: &Place) -> Outcome {
+    assert!(input.is_empty(), "planted");
+    Outcome::Accepted
+}
+
+fn holds_much(_: &[u8], _: &Place) -> Outcome {
+    let much = vec![0_u8; MOST_MEMORY + 1];
+    assert_eq!(much.last(), Some(&0));
+    Outcome::Accepted
+}
+
+/// What nothing must do is found where something does it.
+#[test]
+fn planted_mistakes_are_found() {
+    let _alone = ALONE.write().unwrap_or_else(PoisonError::into_inner);
+    let place = Place::new();
+    let planted = |run| Target { name: "planted", form: Form::Lines, run };
+    assert!(run(&planted(panics), b"", &place).is_ok());
+    let found = run(&planted(panics), b"x", &place).unwrap_err();
+    assert!(matches!(&found, Finding::Panic(said) if said.contains("planted")), "{found:?}");
+    let found = run(&planted(holds_much), b"", &place).unwrap_err();
+    assert!(matches!(found, Finding::Memory(bytes) if bytes > MOST_MEMORY), "{found:?}");
 }

@@ -228,3 +228,62 @@ fn part_again(designs: &[Design; 2], part: &Part, codes: &Codes, proved: Proved)
     }
     again
 }
+
+#[cfg(test)]
+mod tests {
+    use std::panic::catch_unwind;
+
+    use super::*;
+
+    fn from_corpus(path: &[&str]) -> Vec<u8> {
+        let root = [env!("CARGO_MANIFEST_DIR"), "fuzz", "corpus"];
+        let path: std::path::PathBuf = root.iter().chain(path).collect();
+        std::fs::read(path).unwrap()
+    }
+
+    /// A certificate of the corpus with a number made another one, sealed again.
+    fn altered(name: &str, pointer: &str, factor: f64) -> Certificate {
+        let mut value: Value =
+            serde_json::from_slice(&from_corpus(&["certificate", name])).unwrap();
+        let number = value.pointer_mut(pointer).unwrap();
+        *number = Value::from(number.as_f64().unwrap() * factor);
+        let statement = |certificate: &Certificate| Some(certificate.claim().statement());
+        let text = sealed(value.to_string().as_bytes(), statement).unwrap();
+        let certificate = Certificate::parse(&text).unwrap();
+        assert!(certificate.check_seal(&text).is_ok());
+        certificate
+    }
+
+    #[test]
+    fn a_claim_that_is_not_so_is_found() {
+        for (name, pointer, factor) in [
+            ("hardware.json", "/claim/hardware/rows/2/full_range/upper", 0.9),
+            ("hardware.json", "/claim/hardware/epicentre/upper", 0.9),
+            ("hardware.json", "/claim/hardware/rows/1/epicentre/lower", 1.1),
+            ("exponents.json", "/claim/exponents/claims/1/absolute/enclosed/upper", 0.99),
+            ("exponents.json", "/claim/exponents/claims/1/relative/enclosed/lower", 1.01),
+            ("tail.json", "/claim/exponents/claims/0/absolute/enclosed/upper", 0.99),
+            ("every.json", "/claim/every_exponent/claims/0/absolute/upper", 0.5),
+        ] {
+            let so = |factor| {
+                catch_unwind(|| demand_truth(altered(name, pointer, factor).claim())).is_ok()
+            };
+            assert!(so(1.0), "{name} is so");
+            assert!(!so(factor), "{name} with {pointer} times {factor} is not so");
+        }
+    }
+
+    #[test]
+    fn specialised_hardware_that_answers_otherwise_is_found() {
+        let text = String::from_utf8(from_corpus(&["specialised", "differing.json"])).unwrap();
+        let right = Specialised::from_json(&text).unwrap();
+        specialised_is_so(&right);
+        let mut wrong = [right.clone(), right.clone(), right];
+        wrong[0].parts[0].points -= 1;
+        wrong[1].proved = Proved::BitIdentical;
+        wrong[2].parts[0].greatest /= 2.0;
+        for wrong in wrong {
+            assert!(catch_unwind(|| specialised_is_so(&wrong)).is_err(), "{wrong:?}");
+        }
+    }
+}
