@@ -76,6 +76,14 @@ impl Sweep {
         }
     }
 
+    /// What its errors call that which it counts.
+    const fn counted(self) -> &'static str {
+        match self {
+            Self::Stability => "pairs of neighbouring x",
+            _ => "samples",
+        }
+    }
+
     /// About how often each input is looked at.
     #[must_use]
     pub const fn looks(self) -> u128 {
@@ -140,8 +148,8 @@ impl Sweep {
 /// More inputs than a command goes through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error(
-    "{}: {inputs} samples are more than the {most} (2^{}) that are {done}; {}",
-    sweep.name(), most.ilog2(), self.advice()
+    "{}: {inputs} {} are more than the {most} (2^{}) that are {done}; {}",
+    sweep.name(), sweep.counted(), most.ilog2(), self.advice()
 )]
 pub struct TooManyInputs {
     /// What would go through them.

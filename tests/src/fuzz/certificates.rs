@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn specialised_hardware_that_answers_otherwise_is_found() {
         let text = String::from_utf8(from_corpus(&["specialised", "differing.json"])).unwrap();
-        let right = Specialised::from_json(&text).unwrap();
+        let right = Specialised::parse(&text).unwrap();
         specialised_is_so(&right);
         let mut wrong = [right.clone(), right.clone(), right];
         wrong[0].parts[0].points -= 1;

@@ -36,7 +36,7 @@ fn inputs_without_end() {
         ] {
             let most = format!("{} (2^{most})", 1_u64 << most);
             let fits = format!("{fits} fraction bits or fewer");
-            bench.refused(command, &["samples are more than", &most, &fits, "UQ1"]);
+            bench.refused(command, &["are more than the", &most, &fits, "UQ1"]);
         }
         bench.refused(
             "refine --config wide.json --range polynomial --out new.json",
