@@ -34,9 +34,9 @@ all: ## build, measure every preset, and write reports, plots and test vectors t
 	echo "  curves.svg, .png             Phong, Schlick and the hardware against the angle (Fig. 3)"; \
 	echo "  paper/vectors/               stimulus, expected results and ROM for an RTL testbench"; \
 	if [ $$status -eq 1 ]; then \
-		echo "The bound does not hold for every preset: the table above says for which."; \
+		echo "On the epicentre the bound does not hold for every preset: the table above says for which."; \
 	else \
-		echo "The bound holds for every exponent of every preset."; \
+		echo "On the epicentre the bound holds for every exponent of every preset."; \
 	fi
 
 docs: ## write the hardware reference, docs/hardware/, and docs/CLAIMS.md again

@@ -13,6 +13,8 @@
 //! | `proved`, the rest of `parts`, `statement` | found again: every x of every part through both data paths |
 //! | `command` | a label |
 
+use std::sync::atomic::AtomicU64;
+
 use hw_model::config::{Config, ConfigError, StatedWidths};
 use hw_model::design::{Design, DesignError};
 use hw_model::format::QFormat;
@@ -20,10 +22,12 @@ use thiserror::Error;
 use vectors::limits::TooManyInputs;
 
 use super::certificate::{Certificate, Display, Proved};
+use super::codes::pixels_outside;
 use super::compare::certify;
 use super::demand::{Demand, demands};
 use super::derive::{Row, kept, rows};
 use crate::analysis::error_report::Progress;
+use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
 use crate::seal::{BrokenSeal, Unreadable, identity};
 
@@ -182,7 +186,14 @@ fn check_asked(certificate: &Certificate, asked: Asked<'_>) -> Result<(), Refuse
     if certificate.display != shown {
         return other("display", certificate.display.to_string(), shown.to_string());
     }
-    check_demands(certificate, &demands(scene))
+    let demands = demands(scene);
+    // Bounds are those of real places; a picture that f64 cannot compute within them is not bounded at all.
+    let pixels = samples(scene, &AtomicU64::new(0));
+    if let Some((n, x)) = pixels_outside(scene, &pixels, &demands) {
+        let problem = format!("a pixel presents x = {x} with n = {n}, outside what was bounded");
+        return Err(Refused::Field { field: "scene".to_owned(), problem });
+    }
+    check_demands(certificate, &demands)
 }
 
 /// The domain holds all that the scene asks, and no other exponent.

@@ -12,7 +12,7 @@ pub enum Form {
     Json,
     /// Lines of tokens.
     Lines,
-    /// Several files in one ([`archive`]).
+    /// Several files in one (`archive`).
     Archive,
 }
 

@@ -24,7 +24,7 @@ pub fn overwrite(path: &Path, bytes: &[u8]) -> io::Result<()> {
     file.set_len(bytes.len() as u64)
 }
 
-/// A directory, and the hardware of [`TINY`] with a bundle of its vectors.
+/// A directory, and the hardware of `TINY` with a bundle of its vectors.
 #[derive(Debug)]
 pub struct Place {
     directory: TempDir,
