@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
+use vectors::rtl::save_file;
 use vectors::{Cycle as StimulusLine, WholeFile, read_stimulus};
 
 use super::configuration::Configuration;
@@ -14,7 +15,7 @@ use super::{Out, Outcome};
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus, settle};
 use crate::trace::TraceWriter;
-use crate::waves::{SAVE_FILE, WaveFormat, WaveWriter, save_file};
+use crate::waves::{self, WaveFormat, WaveWriter};
 
 /// Run a stimulus through the clocked pipeline; record every register, every cycle.
 ///
@@ -54,7 +55,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         None => (args.trace.clone(), args.waves.clone()),
         Some(directory) => (Some(directory.join("trace.csv")), Some(directory.join("waves.vcd"))),
     };
-    let save = waves.as_ref().map(|waves| waves.with_extension(SAVE_FILE));
+    let save = waves.as_ref().map(|waves| waves.with_extension(save_file::EXTENSION));
     let same = |other: &Option<PathBuf>| {
         trace.is_some() && trace.as_deref().map(place) == other.as_deref().map(place)
     };
@@ -68,7 +69,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     // Nothing gets its name before the run is over.
     let mut trace = trace.map(WholeFile::create).transpose()?;
     let name = &design.config().name;
-    let shown = waves.as_deref().map(|waves| save_file(name, datapath, waves));
+    let shown = waves.as_deref().map(|dump| waves::save_file(name, datapath, dump));
     let mut waves = waves.map(WholeFile::create).transpose()?;
     let mut save = save.map(WholeFile::create).transpose()?;
     if let Some((file, text)) = save.as_mut().zip(shown) {
