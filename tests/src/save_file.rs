@@ -37,7 +37,7 @@ impl SaveFile {
                     other => panic!("{line} with the flags {other:x}"),
                 }
                 open = !open;
-            } else if !line.starts_with('[') {
+            } else if !line.starts_with(['[', '*']) {
                 let flags = flags.expect("flags before a signal");
                 assert!(open && flags & 0x20 != 0, "{line}: {flags:x}");
                 file.groups.last_mut().expect("a group").1.push(signal(line));

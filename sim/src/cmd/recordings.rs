@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use hw_model::datapath::Datapath;
+use vectors::rtl::save_file::EXTENSION;
 use vectors::whole_file::Draft;
 use vectors::{OutputFile, OutputSet, Staging};
 
 use super::output;
-use crate::waves::{SAVE_FILE, WaveFormat, save_file};
+use crate::waves::{WaveFormat, save_file};
 
 /// The files of a directory.
 const NAMES: [&str; 3] = ["trace.csv", "waves.vcd", "waves.gtkw"];
@@ -57,7 +58,7 @@ impl Recordings {
             bail!("--waves {path}: FST is not written in order, which a pipe asks for; use .vcd");
         }
         let save = waves.as_ref().filter(|waves| waves.is_file());
-        let save = save.map(|waves| waves.path().with_extension(SAVE_FILE));
+        let save = save.map(|waves| waves.path().with_extension(EXTENSION));
         if save.as_ref().is_some_and(|save| staging.has(save)) {
             bail!("--trace names the save file that comes with --waves; give it another name");
         }

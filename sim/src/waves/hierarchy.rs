@@ -2,10 +2,11 @@
 //!
 //! A register has two names for the same bits. One is in the scope of its rank, as in traces: `stage1.t1_q`. The
 //! other is where the RTL has it, `polynomial.stage1.t_q`: below its top scope the file is laid out as a simulator's
-//! dump is below `blysk_tb.dut`, and what replays a dump into the RTL finds every register.
+//! dump is below `blysk_tb.dut`, and what replays a dump into the RTL finds every register. (Of rank 0's status the RTL
+//! has no register but one bit, and the wire around it has no x where the rank is unknown.)
 
 use hw_model::datapath::Datapath;
-use vectors::rtl::probes::{Port, Probe, VALID_FLAGS, valid_wave};
+use vectors::rtl::probes::{FETCH_STATUS, Port, Probe, VALID_FLAGS, valid_wave};
 
 /// Signals and scopes below one name.
 pub(super) struct Scope {
@@ -24,13 +25,9 @@ pub(super) struct Hierarchy {
     pub(super) widths: Vec<u32>,
 }
 
-/// The longest name that readers of FST are sure to have room for.
-const NAME_BYTES: usize = 511;
-
-/// The name of the scope around all others. A hyphen has no place in an identifier; a configuration's name is ASCII,
-/// and as long as it likes.
+/// The name of the scope around all others. A hyphen has no place in an identifier.
 pub(super) fn top(name: &str) -> String {
-    name.chars().take(NAME_BYTES).map(|c| if c == '-' { '_' } else { c }).collect()
+    name.replace('-', "_")
 }
 
 impl Hierarchy {
@@ -45,7 +42,9 @@ impl Hierarchy {
             hierarchy.add(&valid_wave(datapath, rank), 1);
             for probe in probes.iter().filter(|probe| probe.rank == rank) {
                 let number = hierarchy.add(&probe.wave, probe.register.format.width());
-                in_rtl.push((probe.path.clone(), number));
+                if probe.path != FETCH_STATUS {
+                    in_rtl.push((probe.path.clone(), number));
+                }
             }
         }
         for (path, number) in in_rtl {

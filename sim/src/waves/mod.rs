@@ -55,9 +55,6 @@ pub fn save_file(name: &str, datapath: &Datapath, dump: &Path) -> String {
     rtl::save_file(datapath, Names::Ranks, &hierarchy::top(name), dump)
 }
 
-/// What the names of save files end in, without the dot.
-pub const SAVE_FILE: &str = "gtkw";
-
 /// A file of waves under way, whose header is written.
 trait Sink {
     /// The changes from here on are at `time`, in ns, later than those before.

@@ -11,7 +11,7 @@ use sim::pipeline::{Inputs, Pipeline};
 use sim::run::Cycle;
 use sim::waves::{WaveFormat, WaveWriter};
 use vectors::rtl::SAVE_FILE;
-use vectors::rtl::probes::probes;
+use vectors::rtl::probes::{FETCH_STATUS, probes};
 
 use super::replay::replay;
 use super::simulators::Simulator;
@@ -141,7 +141,9 @@ impl Dump {
                 .to_vec();
         // Waves have a scope for each rank, whatever part of the pipeline a register belongs to, and the RTL's names.
         for probe in probes(datapath) {
-            names.push((probe.path.clone(), probe.path.clone()));
+            if probe.path != FETCH_STATUS {
+                names.push((probe.path.clone(), probe.path.clone()));
+            }
             names.push((probe.wave, probe.path));
         }
         let mut compared = 0;

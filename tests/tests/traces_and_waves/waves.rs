@@ -63,7 +63,8 @@ pub fn signals(design: &Design) -> Vec<Signal> {
             add(format!("{scope}.{}_q", register.name), &column, register.format.width());
         }
     }
-    for probe in probes(datapath) {
+    // A wire in the RTL, most of whose bits are never unknown.
+    for probe in probes(datapath).into_iter().filter(|probe| probe.path != "fetch_status") {
         add(probe.path, &probe.name, probe.register.format.width());
     }
     signals

@@ -4,7 +4,7 @@ mod package;
 pub mod probes;
 mod project;
 pub mod register_log;
-mod save_file;
+pub mod save_file;
 mod testbench;
 
 use std::io::Write;

@@ -82,6 +82,10 @@ pub fn valid_wave(datapath: &Datapath, rank: usize) -> String {
     format!("{}.valid_q", datapath.rank_name(rank))
 }
 
+/// The status of rank 0 in the RTL: a wire around the only flag that is known by then. The other bits are 0 from the
+/// start, where a register would be unknown.
+pub const FETCH_STATUS: &str = "fetch_status";
+
 /// Ranks before the first multiply-add stage.
 const HEAD: usize = 2;
 /// The rank of t3.
@@ -91,7 +95,7 @@ fn path(datapath: &Datapath, rank: usize, name: &str) -> String {
     let last = datapath.rank_count() - 1;
     match (rank, name) {
         (0, "x") => "x_q".to_owned(),
-        (0, "status") => "fetch_status".to_owned(),
+        (0, "status") => FETCH_STATUS.to_owned(),
         (0, field) => field.to_owned(),
         (_, "intensity" | "status") if rank == last => format!("clamp.{name}_q"),
         (1, "v") => "front_end.variable.v_q".to_owned(),

@@ -4,6 +4,7 @@
 //! (`@` and a number in hex), and for a fixed-point number how many of its bits are fraction.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
@@ -20,6 +21,9 @@ const GROUP_BEGIN: u32 = 1 << 23;
 const GROUP_END: u32 = 1 << 24;
 const FIXED_POINT: u32 = 1 << 30;
 
+/// What the names of save files end in, without the dot.
+pub const EXTENSION: &str = "gtkw";
+
 /// Which signals a dump has below the pipeline's scope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Names {
@@ -31,15 +35,28 @@ pub enum Names {
     Ports,
 }
 
+impl Names {
+    /// Twenty or thirty cycles on the screen: the power of two by which a unit of time is drawn smaller. Our waves count
+    /// ns, the testbench's ps.
+    const fn zoom(self) -> u32 {
+        match self {
+            Self::Ranks => 7,
+            Self::Rtl | Self::Ports => 17,
+        }
+    }
+}
+
 /// The text of a save file for a dump in which the pipeline stands in `scope`. `dump` is the dump's file name, in the
 /// directory of the save file.
 #[must_use]
 pub fn save_file(datapath: &Datapath, names: Names, scope: &str, dump: Option<&str>) -> String {
     let mut file = SaveFile { scope, text: String::new() };
     if let Some(dump) = dump.filter(|name| is_plain(name)) {
-        file.line(format_args!("[dumpfile] \"{dump}\""));
+        // With its own name in it, the dump is looked for beside it, wherever GTKWave is called.
+        let save = Path::new(dump).with_extension(EXTENSION);
+        file.line(format_args!("[dumpfile] \"{dump}\"\n[savefile] \"{}\"", save.display()));
     }
-    file.line(format_args!("[timestart] 0"));
+    file.line(format_args!("[timestart] 0\n*-{}.000000 -1", names.zoom()));
     file.group("ports", |file| {
         for port in ports(datapath) {
             file.signal(None, port.name, port.format, port.name == "status_o");
