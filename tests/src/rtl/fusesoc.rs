@@ -8,7 +8,7 @@ use hw_model::rtl::{SOURCES, TOP};
 use vectors::rtl::core_name;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
-use super::simulators::repository;
+use super::simulators::{fresh, repository};
 use super::workspace::Emitted;
 use super::{Failure, failed};
 
@@ -34,10 +34,7 @@ pub fn check(emitted: &Emitted<'_>) -> Result<(), Failure> {
 /// # Errors
 /// When it does not pass.
 pub fn check_dut(design: &Design) -> Result<(), Failure> {
-    let directory = repository().join("target/rtl/fusesoc_dut");
-    if directory.exists() {
-        std::fs::remove_dir_all(&directory).map_err(|error| Failure(error.to_string()))?;
-    }
+    let directory = fresh("fusesoc_dut")?;
     let written = || -> Result<(), vectors::BundleError> {
         let bundle = Bundle::new(design, Strategy::Mixed, 256, 1, "make rtl")?;
         let mut set = OutputSet::create(&directory)?;

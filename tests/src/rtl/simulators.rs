@@ -147,6 +147,22 @@ pub fn repository() -> PathBuf {
     package.parent().unwrap_or(package).to_owned()
 }
 
+/// The place of a fresh directory `target/rtl/<name>`. The directory above is made first: several tests at a time have
+/// directories there, and none of them may appear with it.
+///
+/// # Errors
+/// When something is in the way.
+pub fn fresh(name: &str) -> Result<PathBuf, Failure> {
+    let above = repository().join("target/rtl");
+    let directory = above.join(name);
+    let cannot = |error| Failure(format!("cannot empty {}: {error}", directory.display()));
+    std::fs::create_dir_all(&above).map_err(cannot)?;
+    if directory.exists() {
+        std::fs::remove_dir_all(&directory).map_err(cannot)?;
+    }
+    Ok(directory)
+}
+
 fn first_line(command: &mut Command) -> Result<String, Failure> {
     match command.output() {
         Ok(output) => {

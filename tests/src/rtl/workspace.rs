@@ -6,7 +6,7 @@ use hw_model::design::Design;
 use hw_model::rtl::TOP;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
-use super::simulators::repository;
+use super::simulators::{fresh, repository};
 use super::{Failure, failed};
 
 /// What is emitted.
@@ -32,11 +32,7 @@ pub fn emit<'a>(
     strategy: Strategy,
     count: u64,
 ) -> Result<Emitted<'a>, Failure> {
-    let directory = repository().join("target/rtl").join(name);
-    if directory.exists() {
-        std::fs::remove_dir_all(&directory)
-            .map_err(|error| Failure(format!("cannot empty {}: {error}", directory.display())))?;
-    }
+    let directory = fresh(name)?;
     let command = format!("make rtl, {name}");
     let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {
         let mut set = OutputSet::create(&directory)?;

@@ -350,7 +350,8 @@ fn every_column_of_a_table_is_checked() {
     let held = bench.good(check);
     assert!(!held.contains("not checked"), "{held}");
     let lines: Vec<&str> = kept.lines().collect();
-    let preset = lines.iter().position(|line| line.starts_with("preset compact,")).expect("a preset");
+    let preset =
+        lines.iter().position(|line| line.starts_with("preset compact,")).expect("a preset");
     let mut altered = 0;
     for line in [1, preset] {
         for column in 0..columns - 1 {

@@ -15,7 +15,7 @@ use hw_model::design::Design;
 use vectors::faults::Fault;
 use vectors::{Bundle, OutputSet, rtl};
 
-use super::simulators::{Simulator, repository};
+use super::simulators::{Simulator, fresh};
 use super::workspace::copy;
 use super::{Failure, failed};
 
@@ -62,10 +62,7 @@ impl Bench {
     /// # Errors
     /// When it cannot be written.
     pub fn new(name: &str, bundle: &Bundle<'_>) -> Result<Self, Failure> {
-        let directory = repository().join("target/rtl").join(name);
-        if directory.exists() {
-            std::fs::remove_dir_all(&directory).map_err(|error| Failure(error.to_string()))?;
-        }
+        let directory = fresh(name)?;
         let written = || -> Result<(), vectors::BundleError> {
             let mut set = OutputSet::create(&directory)?;
             rtl::stage(bundle, "blysk_mutated", "make mutants", &mut set)?;
