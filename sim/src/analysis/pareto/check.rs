@@ -236,7 +236,7 @@ mod tests {
             (|row| row.contender.push('!'), "the contenders were"),
             (|row| row.kind = "f16".to_owned(), "kind of the table: f16"),
             (|row| row.multiplier_bits = Some(1), "multiplier_bits of the table: 1"),
-            (|row| row.every = 7, "a table is of one number of x"),
+            (|row| row.every = 3, "a table is of one number of x"),
             (|row| row.hardware_whole_front = Some(true), "on the front"),
             (|row| row.hardware_epicentre_dominated_by = Some("me".to_owned()), "epicentre"),
         ] {
