@@ -2,8 +2,11 @@
 """Synthesises, places and routes every preset for two small FPGAs, and writes the table of
 docs/SYNTHESIS.md.
 
-`--check` synthesises nothing: it tells whether that table is of the RTL as it is now. Exit status 0:
-done, or up to date; 1: not, or a configuration takes another number of DSP blocks than it was made for.
+`--check` synthesises nothing: it tells whether that table is of the RTL as it is now. `--same-since
+COMMIT` is for RTL whose text has changed since the table was made, and whose netlist has not: it compares
+the netlists before synthesis, of the sources at COMMIT and of those now, and has the table up to date where
+all are the same. Exit status 0: done, or up to date; 1: not, or a configuration takes another number of DSP
+blocks than it was made for.
 """
 
 import argparse
@@ -57,6 +60,10 @@ DEVICES = {
     },
 }
 COMMON = " --freq 50 --seed {seed} --report report.json --quiet"
+
+# The netlist before synthesis, with numbers in the place of the names that Yosys makes of lines and counters.
+ELABORATE = "hierarchy -top blysk; proc; flatten; opt -full; clean; memory -nomap; clean; " \
+            "setattr -unset src */* c:* w:* *; rename -enumerate -pattern _%_; write_json netlist.json"
 
 # One multiplier a stage: what the operand limits of these configurations are for.
 REQUIRED_DSP = {("compact", "ECP5 25F"): 3, ("compact_12_bit", "iCE40 UP5K"): 3}
@@ -224,6 +231,34 @@ def check(blysk):
     print("docs/SYNTHESIS.md is up to date")
 
 
+def netlist(place, sources):
+    script = f"read_verilog -sv {' '.join(sources)}; {ELABORATE}"
+    subprocess.run(["yosys", "-q", "-p", script], cwd=place, check=True, stdout=subprocess.DEVNULL)
+    return re.sub(r'"src": "[^"]*"', "", (place / "netlist.json").read_text())
+
+
+def same_since(blysk, commit):
+    """Writes the hashes of docs/synthesis.csv again where no netlist has changed since `commit`."""
+    rows, wrong = list(csv.DictReader(io.StringIO(COMMITTED.read_text()))), []
+    for name, option in configurations(blysk).items():
+        place, sources = emit(blysk, name, option)
+        before = WORK / name / "before"
+        shutil.copytree(place, before, dirs_exist_ok=True)
+        # The package is generated, and is today's in both.
+        for source in (place / s for s in sources if s != "blysk_pkg.sv"):
+            path = f"{commit}:hw-model/rtl/{source.name}"
+            text = subprocess.run(["git", "show", path], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+            (before / source.name).write_text(text)
+        same = netlist(before, sources) == netlist(place, sources)
+        print(f"{name}: {'the same netlist' if same else 'another netlist'}", flush=True)
+        wrong += [] if same else [name]
+        for r in (r for r in rows if r["configuration"] == name):
+            r["inputs"] = inputs(place, sources, r["device"])
+    if wrong:
+        sys.exit(f"the netlist has changed since {commit}; run make synth: {', '.join(wrong)}")
+    COMMITTED.write_text(as_csv(rows))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
@@ -231,9 +266,13 @@ def main():
     parser.add_argument("--config", action="append", default=[], metavar="FILE",
                         help="synthesise this configuration instead, and leave the documents as they are")
     parser.add_argument("--check", action="store_true", help="only tell whether docs/SYNTHESIS.md is up to date")
+    parser.add_argument("--same-since", metavar="COMMIT",
+                        help="take the table over where no netlist has changed since that commit")
     args = parser.parse_args()
     if args.check:
         return check(args.blysk)
+    if args.same_since:
+        return same_since(args.blysk, args.same_since)
     os.environ["PATH"] = f"{VENV}:{os.environ['PATH']}"
     rows, wrong = [], []
     chosen = {json.loads(Path(file).read_text())["name"]: ["--config", str(Path(file).resolve())] for file in args.config}

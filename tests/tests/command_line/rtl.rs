@@ -111,6 +111,7 @@ proptest! {
     /// These are never refused: a path is quoted wherever it goes.
     #[test]
     fn any_name_of_a_file_or_directory_compiles(file in nasty(), place in nasty()) {
+        // A name, and no way to somewhere else.
         let name = |text: &str| format!("f{}", text.replace('/', ""));
         let configuration = format!("{}.json", name(&file));
         prop_assert!(taken(&configuration, "small", &name(&place), TOP));
