@@ -80,10 +80,14 @@ proptest! {
     fn segments_reach_a_given_level(n in exponents(), level in 0.0001_f64..0.9, count in 1_usize..4) {
         let fitted = segments(n, count, Range::Level(level)).unwrap();
         let end = *fitted.ends.last().unwrap();
-        prop_assert!((phong_at_s(n, end) / level - 1.0).abs() < 1e-6);
+        // The search takes x^n in f64, so it knows an error to some 10^-16: that is much of an error of 10^-10,
+        // as n = 2.0074 has it from 1 to 0.8653, where this test once failed.
+        let unseen = 1e-15 / fitted.error;
+        prop_assert!((phong_at_s(n, end) / level - 1.0).abs() < 1e-6 + unseen, "{fitted:?}");
         if count == 1 {
             let alone = alternation(n, level).unwrap().unwrap();
-            prop_assert!((alone.points[0].1.abs() / fitted.error - 1.0).abs() < 1e-7);
+            let ratio = alone.points[0].1.abs() / fitted.error;
+            prop_assert!((ratio - 1.0).abs() < 1e-7 + unseen, "{alone:?} {fitted:?}");
         }
     }
 }
