@@ -74,6 +74,7 @@ setup-all: ## and what proofs and synthesis need
 test: setup ## everything that is checked: format, spelling, lints, documentation, tests, RTL
 	$(CARGO) fmt --all --check
 	$(VENV)/bin/typos
+	PATH="$$PWD/$(VENV)/bin:$$PATH" $(CARGO) deny --locked check licenses bans sources
 	$(CARGO) clippy $(CHECKED) --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
 	$(CARGO) test $(CHECKED) --workspace --locked
