@@ -1,12 +1,12 @@
 //! Configurations that cannot be, or only just can: each is refused with words that help, or makes
 //! hardware that agrees with the naive model. Never a panic.
 
-use blysk_tests::comparison::{self, Comparison};
-use blysk_tests::configurations::{self, Random};
 use hw_model::config::{Config, Form, Tail};
 use hw_model::design::Design;
 use hw_model::presets;
 use hw_model::rounding::Rounding;
+use naive::comparison::{self, Comparison};
+use naive::configurations::{self, Random};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 

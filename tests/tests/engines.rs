@@ -1,34 +1,9 @@
 //! Every way of running the pipeline gives the same bits, over random configurations.
 
-use blysk_tests::configurations::{Random, inputs, random};
-use hw_model::datapath::{Block, Datapath};
-use hw_model::design::Design;
-use hw_model::presets;
+use hw_model::datapath::Datapath;
+use naive::configurations::{designs, request};
 use sim::pipeline::{Inputs, Pipeline, Rank};
 use sim::stream::{CYCLES, Stream};
-
-/// Seed of the configurations.
-const SEED: u64 = 7;
-/// Configurations tried; about two thirds of them make hardware.
-const CONFIGURATIONS: u64 = 400;
-
-fn designs() -> impl Iterator<Item = (Random, Design)> {
-    let presets = presets::ALL.iter().map(|preset| preset.config().unwrap());
-    let sources = (0..CONFIGURATIONS).map(|stream| Random::new(SEED, stream));
-    let mut presets = presets.collect::<Vec<_>>().into_iter();
-    sources.filter_map(move |mut source| {
-        let config = presets.next().unwrap_or_else(|| random(&mut source));
-        Some((source, Design::new(config).ok()?))
-    })
-}
-
-/// A request worth trying, also one at an address without a word.
-fn request(source: &mut Random, design: &Design) -> (u32, i64) {
-    let address = source.integer(0, design.rom().depth() as i64) as u32;
-    let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
-    let xs = inputs(source, design.datapath(), cut, 30);
-    (address, source.one_of(&xs))
-}
 
 /// The handshake's rules as they are written, a rank after the other, each with all its registers.
 struct Written<'a> {
@@ -144,33 +119,6 @@ fn many_cycles_at_a_time_show_what_the_clocked_simulator_shows() {
                 }
                 pipeline.clock();
             }
-        }
-    }
-    assert!(compared > 100_000, "{compared}");
-}
-
-/// Runs of consecutive x, across the cut, 0 and 1 wherever the input format goes there.
-#[test]
-fn a_run_is_a_block_is_the_ranks() {
-    let mut block = Block::default();
-    let mut compared = 0;
-    for (mut source, design) in designs() {
-        let datapath = design.datapath();
-        let format = datapath.formats().input;
-        let address = source.integer(0, design.rom().depth() as i64) as u32;
-        let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
-        for first in inputs(&mut source, datapath, cut, 24) {
-            let from = (first - source.integer(0, 300)).max(format.min_bits());
-            let count = source.integer(1, 400).min(format.max_bits() - from + 1);
-            let xs: Vec<i64> = (from..from + count).collect();
-            let mut run = vec![-1; xs.len()];
-            datapath.evaluate_run(address, from, &mut run);
-            datapath.evaluate_block(address, &xs, &mut block);
-            assert_eq!(run, block.intensities, "{} {address} {from}", design.config().to_json());
-            for (&x, &intensity) in xs.iter().zip(&run).step_by(37) {
-                assert_eq!(intensity, datapath.evaluate(address, x).intensity, "{address} {x}");
-            }
-            compared += xs.len();
         }
     }
     assert!(compared > 100_000, "{compared}");

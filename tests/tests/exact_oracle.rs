@@ -4,10 +4,10 @@
 
 use std::cmp::Ordering;
 
-use blysk_tests::configurations::Random;
-use blysk_tests::naive::Exact;
 use hw_model::highlight::exact::{ExactError, ExactPower};
 use hw_model::highlight::{phong, phong_at_s};
+use naive::Exact;
+use naive::configurations::Random;
 use num_bigint::{BigInt, BigUint};
 
 const SEED: u64 = 0x000f_ac1e;

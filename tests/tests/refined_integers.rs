@@ -3,11 +3,11 @@
 
 use std::sync::atomic::AtomicU64;
 
-use blysk_tests::comparison::{self, Comparison};
 use hw_model::config::Config;
 use hw_model::design::{Design, Revision};
 use hw_model::highlight::phong;
 use hw_model::steps::CoefficientSteps;
+use naive::comparison::{self, Comparison};
 use serde_json::json;
 use sim::analysis::refine::{Found, Options, Range, Refined, refine};
 

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use blysk_tests::configurations::{Random, plain};
 use hw_model::datapath::Datapath;
 use hw_model::design::Design;
+use naive::configurations::{Random, plain};
 use sim::agreement::{Agreement, Disagreement, compare};
 use sim::pipeline::{Inputs, Pipeline};
 use vectors::rtl::probes::probes;

@@ -60,6 +60,8 @@ pub struct ErrorRow {
     pub full_range_x: f64,
     /// total_abs is within the bound.
     pub holds: bool,
+    /// full_range_abs is within the bound.
+    pub full_range_holds: bool,
 }
 
 /// The errors of every exponent.
@@ -258,5 +260,6 @@ fn error_row(
         full_range_abs: errors.full_range.error,
         full_range_x: x(errors.full_range.x),
         holds: errors.epicentre.error <= bound,
+        full_range_holds: errors.full_range.error <= bound,
     })
 }

@@ -2,10 +2,12 @@
 //!
 //! How it is sealed and read: [`crate::seal`].
 
-use hw_model::fit::Method;
+use hw_model::config::Config;
+use hw_model::exponents::Exponents;
+use hw_model::fit::{Levels, Method};
 use serde::{Deserialize, Serialize};
 
-use super::claim::{Claims, EveryClaim, ExponentClaim};
+use super::claim::{Claims, EveryClaim, ExponentClaim, Region};
 use super::hardware::HardwareClaim;
 use crate::seal::{self, BrokenSeal, Sealed, Unreadable};
 
@@ -123,6 +125,39 @@ impl Claim {
                 levels.g()
             ),
             Self::Hardware(claim) => claim.statement(),
+        }
+    }
+
+    /// What a bound on the epicentre is about: methods with their exponents and level, or a configuration.
+    #[must_use]
+    pub fn epicentres(&self) -> String {
+        let of_level = |levels: &Levels| format!("Q = {}, G = {}", levels.q(), levels.g());
+        match self {
+            Self::Exponents(Claims { levels, claims }) => {
+                let claims = || claims.iter().filter(|claim| claim.region == Region::Epicentre);
+                let mut exponents: Vec<f64> = claims().map(|claim| claim.n).collect();
+                exponents.sort_by(f64::total_cmp);
+                exponents.dedup();
+                // A certificate may have more exponents, and in any order, than a list of them may.
+                let exponents = match exponents.as_slice() {
+                    [least, .., greatest] => Exponents::new(exponents.clone()).map_or_else(
+                        |_| format!("{} exponents from {least} to {greatest}", exponents.len()),
+                        |list| format!("n = {list}"),
+                    ),
+                    [only] => format!("n = {only}"),
+                    [] => "no exponent".to_owned(),
+                };
+                let methods = listed(claims().map(|claim| claim.method));
+                format!("{methods}; {exponents}; {}", of_level(levels))
+            }
+            Self::EveryExponent(Claims { levels, claims }) => {
+                let methods = listed(claims.iter().map(|claim| claim.method));
+                format!("{methods}; every real n >= 1; {}", of_level(levels))
+            }
+            Self::Hardware(claim) => {
+                let Config { name, exponents, q, .. } = &claim.configuration;
+                format!("{name}; n = {exponents}; Q = {q}")
+            }
         }
     }
 }

@@ -84,16 +84,16 @@ impl Range {
     }
 
     /// Whether a row keeps the report's bound here.
-    fn holds(self, report: &ErrorReport, row: &ErrorRow) -> bool {
+    const fn holds(self, row: &ErrorRow) -> bool {
         match self {
             Self::Epicentre => row.holds,
-            Self::All => row.full_range_abs <= report.bound,
+            Self::All => row.full_range_holds,
         }
     }
 
     fn outcome<'a>(self, reports: impl IntoIterator<Item = &'a ErrorReport>) -> Outcome {
         let keeps = |report: &ErrorReport| {
-            !report.rows.is_empty() && report.rows.iter().all(|row| self.holds(report, row))
+            !report.rows.is_empty() && report.rows.iter().all(|row| self.holds(row))
         };
         if reports.into_iter().all(keeps) { Outcome::Good } else { Outcome::Fails }
     }
@@ -248,7 +248,7 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
 
 /// Whether the bound holds over a range of x, and from which n it does not.
 fn verdict(report: &ErrorReport, range: Range) -> String {
-    let failing = || report.rows.iter().filter(|row| !range.holds(report, row));
+    let failing = || report.rows.iter().filter(|row| !range.holds(row));
     match failing().next() {
         None if report.rows.is_empty() => "is about no exponent".to_owned(),
         None => "holds for every exponent".to_owned(),
@@ -344,7 +344,7 @@ fn comparison(reports: &[ErrorReport], out: &mut Out) -> anyhow::Result<()> {
 
 /// The same in a word or two.
 fn short_verdict(report: &ErrorReport, range: Range) -> String {
-    let first = report.rows.iter().find(|row| !range.holds(report, row));
+    let first = report.rows.iter().find(|row| !range.holds(row));
     first.map_or_else(|| "holds".to_owned(), |row| format!("fails, n = {}", row.n))
 }
 
@@ -380,5 +380,9 @@ fn cells(row: &ErrorRow) -> Vec<Cell> {
         row.full_range_abs,
         row.full_range_x,
     ];
-    reals.into_iter().map(Cell::Real).chain([Cell::Flag(row.holds)]).collect()
+    reals
+        .into_iter()
+        .map(Cell::Real)
+        .chain([row.holds, row.full_range_holds].map(Cell::Flag))
+        .collect()
 }

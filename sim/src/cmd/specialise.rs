@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use clap::Args as ClapArgs;
+use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::rtl::TOP;
@@ -13,7 +14,7 @@ use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
 
 use super::bar::Bar;
-use super::configuration::MaybeConfiguration;
+use super::configuration::{MaybeConfiguration, load_config};
 use super::scene::{Loaded, load};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
@@ -345,30 +346,39 @@ fn check(
     let bar = Bar::new(specialise::inputs(&text));
     let held = specialise::check(&text, asked, &bar);
     bar.finish();
-    match held {
-        Ok(Held { statement, not_checked }) => match written_with(path) {
-            Ok(files) => {
-                write_folded(out, &format!("{shown} holds: {statement}"))?;
-                let beside = match files {
-                    Some(count) => {
-                        format!("The {count} files beside it are those written with it.")
-                    }
-                    None => "It stands alone: files of hardware were not looked at.".to_owned(),
-                };
-                write_folded(out, &beside)?;
-                for sentence in not_checked {
-                    write_folded(out, &sentence)?;
-                }
-                Ok(Outcome::Good)
+    let said = held.map_err(anyhow::Error::from).and_then(|held| accepted(path, held));
+    match said {
+        Ok(sentences) => {
+            for sentence in sentences {
+                write_folded(out, &sentence)?;
             }
-            Err(refused) => {
-                write_folded(out, &format!("{shown} does not hold: {refused}"))?;
-                Ok(Outcome::Fails)
-            }
-        },
+            Ok(Outcome::Good)
+        }
         Err(refused) => {
-            write_folded(out, &format!("{shown} does not hold: {refused}"))?;
+            write_folded(out, &format!("{shown} does not hold: {refused:#}"))?;
             Ok(Outcome::Fails)
         }
     }
+}
+
+/// What to say of a certificate that holds: what it is about, the files beside it, and what was not checked.
+fn accepted(path: &Path, held: Held) -> anyhow::Result<Vec<String>> {
+    let Held { statement, not_checked, specialised } = held;
+    let beside = match written_with(path)? {
+        Some(count) => {
+            check_beside(path, &specialised)?;
+            format!("The {count} files beside it are those written with it.")
+        }
+        None => "It stands alone: files of hardware were not looked at.".to_owned(),
+    };
+    let first = [format!("{} holds: {statement}", path.display()), beside];
+    Ok(first.into_iter().chain(not_checked).collect())
+}
+
+/// The configuration beside the certificate is the one that it is about.
+fn check_beside(certificate: &Path, specialised: &Config) -> anyhow::Result<()> {
+    let path = certificate.with_file_name(CONFIGURATION);
+    let other = || format!("{} is not the certificate's configuration", path.display());
+    anyhow::ensure!(load_config(&path)? == *specialised, other());
+    Ok(())
 }

@@ -21,7 +21,7 @@ pub fn names() -> impl Iterator<Item = String> {
 }
 
 /// The columns of `error_vs_n.csv`: the fields of a row, in their order.
-pub const COLUMNS: [&str; 12] = [
+pub const COLUMNS: [&str; 13] = [
     "n",
     "approximation_abs",
     "approximation_rel",
@@ -34,6 +34,7 @@ pub const COLUMNS: [&str; 12] = [
     "full_range_abs",
     "full_range_x",
     "holds",
+    "full_range_holds",
 ];
 
 /// Pixels of a PNG for each unit of its SVG.
@@ -121,6 +122,7 @@ mod tests {
             full_range_abs: 0.0,
             full_range_x: 0.0,
             holds: true,
+            full_range_holds: true,
         };
         let mut csv = csv::Writer::from_writer(Vec::new());
         csv.serialize(row).unwrap();

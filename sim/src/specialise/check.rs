@@ -102,12 +102,14 @@ pub enum Refused {
 }
 
 /// What holds, and what was not looked at.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Held {
     /// What was proved, and of what.
     pub statement: String,
     /// What the checker knows from the certificate alone, a sentence each.
     pub not_checked: Vec<String>,
+    /// The configuration that answers: what a file beside the certificate must say.
+    pub specialised: Config,
 }
 
 /// How many x a certificate says it is about, for a bar; none where it cannot be read.
@@ -133,6 +135,7 @@ pub fn check(text: &str, asked: Asked<'_>, progress: &dyn Progress) -> Result<He
     Ok(Held {
         statement: certificate.statement.clone(),
         not_checked: not_checked(&certificate, asked),
+        specialised: certificate.specialised,
     })
 }
 

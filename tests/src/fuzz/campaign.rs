@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::mutate::mutate;
 use super::run::{Finding, run};
 use super::{Outcome, Place, Target};
-use crate::configurations::Random;
+use naive::configurations::Random;
 
 /// What many runs did.
 #[derive(Debug, Clone, Copy, Default)]

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::archive;
-use crate::configurations::Random;
+use naive::configurations::Random;
 
 /// What an input looks like, and so what is altered in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

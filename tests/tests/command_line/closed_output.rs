@@ -1,8 +1,11 @@
 //! Standard output that closes early, as `| head -1` closes it: a verdict is the exit status all the same.
 
+use std::fs;
 use std::io::Read;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
+use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
@@ -32,6 +35,30 @@ fn long(bench: &Bench) {
     bench.write("long.json", json.replace("\"small\"", "\"long\""));
 }
 
+/// Logs of a wrong design, and a certificate of another scene.
+fn logs(bench: &Bench) {
+    let corpus = |name: &str| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(name);
+        fs::read_to_string(path).expect("a file of the corpus")
+    };
+    bench.write("tiny.json", corpus("configuration/tiny.json"));
+    let _vectors = bench.good("vectors --config tiny.json --count 64 --out v");
+    let mut log = Log::right(bench, "v");
+    log.spoil(3, "intensity");
+    bench.write("wrong.csv", log.text());
+    let registers = corpus("registers/sixty.txt");
+    bench.write("right.txt", &registers);
+    let _agrees = bench.good("check --vectors v --registers right.txt");
+    let (begun, last) = registers.trim_end().rsplit_once(' ').expect("columns");
+    bench.write("wrong.txt", format!("{begun} {}\n", if last == "0" { "1" } else { "0" }));
+    for name in ["close_up", "one_material"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes");
+        let scene = fs::read(path.join(format!("{name}.json"))).expect("a scene");
+        bench.write(&format!("{name}.json"), scene);
+    }
+    let _certificate = bench.good("specialise close_up.json --preset compact --out hardware");
+}
+
 #[test]
 fn a_failed_verdict_is_one_though_nobody_reads_it() {
     let bench = bench!();
@@ -43,7 +70,11 @@ fn a_failed_verdict_is_one_though_nobody_reads_it() {
     );
     let pareto = bench.good("pareto --exponents 1..=8 --input UQ1.10 --no-timing --format csv");
     bench.write("pareto.csv", pareto.replace(",f64,", ",f16,"));
+    logs(&bench);
     for failing in [
+        "check --vectors v --log wrong.csv",
+        "check --vectors v --registers wrong.txt",
+        "specialise one_material.json --check hardware/certificate.json",
         "report --config long.json --bound 1e-9 --format json",
         "report --config long.json --bound 1e-9 --format csv",
         "report --config small.json --bound 1e-9",

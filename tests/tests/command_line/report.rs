@@ -8,7 +8,8 @@ use blysk_tests::{bench, reference};
 use serde_json::Value;
 
 const COLUMNS: &str = "n,approximation_abs,approximation_rel,approximation_x,coefficient_abs,\
-                       datapath_abs,input_abs,total_abs,total_x,full_range_abs,full_range_x,holds";
+                       datapath_abs,input_abs,total_abs,total_x,full_range_abs,full_range_x,holds,\
+                       full_range_holds";
 
 /// Ten significant digits are promised of the method's own error.
 const DIGITS: f64 = 1e-10;

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use blysk_tests::bench;
 use blysk_tests::cli::{Bench, csv_rows, number};
-use blysk_tests::naive::{Naive, OUT_OF_DOMAIN};
 use hw_model::config::Config;
 use hw_model::datapath::Status;
 use hw_model::design::Design;
 use hw_model::presets;
+use naive::{Naive, OUT_OF_DOMAIN};
 use num_bigint::BigInt;
+use vectors::checksum::checksum;
 
 fn scene(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/scenes").join(format!("{name}.json"))
@@ -128,6 +129,21 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
         assert_eq!(run.status, 1, "{wrong}: {run:#?}");
         assert!(run.stdout.contains("does not hold: "), "{wrong}: {run:#?}");
     }
+    // The configuration beside it is another, though the list of files was written again.
+    let list = bench.text("small/specialise.sha256");
+    let honest = bench.text("small/configuration.json");
+    let other = honest.replacen("\"error_budget_ulp\"", "\"error_budget_ulp\" ", 1);
+    let other = other.replacen("\"description\": \"", "\"description\": \"x", 1);
+    let digest = |text: &str| checksum(text.as_bytes()).unwrap().sha256;
+    bench.write("small/specialise.sha256", list.replace(&digest(&honest), &digest(&other)));
+    bench.write("small/configuration.json", &other);
+    let run = check("small/certificate.json");
+    assert!(
+        run.status == 1 && run.stdout.contains("not the certificate's configuration"),
+        "{run:#?}"
+    );
+    bench.write("small/specialise.sha256", list);
+    bench.write("small/configuration.json", honest);
     // Another scene is not the one it was made for.
     let other = scene("one_material");
     let run = bench.run_list(&[

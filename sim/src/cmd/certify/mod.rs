@@ -230,7 +230,11 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
     let holds = greatest.is_some_and(|greatest| greatest <= bound);
     if format == Format::Table {
         let said = if holds { "proved" } else { "NOT PROVED" };
-        writeln!(out, "absolute error on the epicentre at most {bound}: {said}")?;
+        let about = claim.epicentres();
+        write_folded(
+            out,
+            &format!("absolute error on the epicentre at most {bound}: {said} ({about})"),
+        )?;
     }
     Ok(if holds { Outcome::Good } else { Outcome::Fails })
 }

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use vectors::faults::{Fault, FieldFault, field_faults};
 
 use super::{Bench, Outcome, class};
-use crate::configurations::Random;
 use crate::rtl::Failure;
 use crate::rtl::simulators::Simulator;
+use naive::configurations::Random;
 
 /// Exchanges of rows that are not neighbours.
 const DISTANT: u64 = 64;

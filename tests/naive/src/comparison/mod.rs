@@ -9,7 +9,7 @@ use hw_model::design::{Design, RealRow};
 use hw_model::format::QFormat;
 use num_bigint::BigInt;
 
-use crate::naive::Naive;
+use crate::Naive;
 
 pub use rom::rom;
 

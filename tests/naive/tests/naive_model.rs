@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use blysk_tests::comparison::{self, Comparison, Complaint, Kind};
-use blysk_tests::configurations::{self, METHODS, Random};
-use blysk_tests::naive::Naive;
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::rounding::Rounding;
+use naive::Naive;
+use naive::comparison::{self, Comparison, Complaint, Kind};
+use naive::configurations::{self, METHODS, Random};
 use num_bigint::BigInt;
 use rayon::prelude::*;
 

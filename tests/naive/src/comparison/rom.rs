@@ -8,7 +8,7 @@ use hw_model::rounding::Rounding;
 use num_bigint::BigInt;
 
 use super::{Complaint, Kind, complain, size};
-use crate::naive::Exact;
+use crate::Exact;
 
 /// The ROM integers follow from the real rows: each coefficient is rounded to the nearest (a tie to
 /// the even one), the cut is the least x that is not below 1 − s, the shift is ⌊log2 n⌋.

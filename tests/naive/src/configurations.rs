@@ -7,6 +7,7 @@ use hw_model::domain::Presented;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
+use hw_model::presets;
 use hw_model::rounding::Rounding;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -278,4 +279,32 @@ pub fn inputs(random: &mut Random, datapath: &Datapath, cut: i64, count: usize) 
     }
     list.retain(|&x| format.holds(x.into()));
     list
+}
+
+/// Seed of [`designs`].
+const SEED: u64 = 7;
+/// Configurations that [`designs`] tries; about two thirds of them make hardware.
+const CONFIGURATIONS: u64 = 400;
+
+/// The presets and random configurations that make hardware, each with the source to draw its inputs from.
+///
+/// # Panics
+/// When a preset makes none.
+pub fn designs() -> impl Iterator<Item = (Random, Design)> {
+    let presets = presets::ALL.iter().map(|preset| preset.config().unwrap());
+    let sources = (0..CONFIGURATIONS).map(|stream| Random::new(SEED, stream));
+    let mut presets = presets.collect::<Vec<_>>().into_iter();
+    sources.filter_map(move |mut source| {
+        let config = presets.next().unwrap_or_else(|| random(&mut source));
+        Some((source, Design::new(config).ok()?))
+    })
+}
+
+/// A request worth trying, also one at an address without a word.
+#[must_use]
+pub fn request(source: &mut Random, design: &Design) -> (u32, i64) {
+    let address = source.integer(0, design.rom().depth() as i64) as u32;
+    let cut = design.rows().get(address as usize).map_or(0, |row| row.cut);
+    let xs = inputs(source, design.datapath(), cut, 30);
+    (address, source.one_of(&xs))
 }
