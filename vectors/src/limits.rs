@@ -18,6 +18,12 @@ pub const MOST_KEPT: u128 = 1 << 26;
 /// 2.5 GB.
 pub const MAX_VECTORS: u64 = 1 << 22;
 
+/// The most numbers and addresses of a memory file: one of each for every word.
+pub const MOST_NUMBERS: usize = 2 * MAX_VECTORS as usize;
+
+/// The most cycles of a stimulus that is read, 2^24: they take 700 MB.
+pub const MOST_CYCLES: usize = 1 << 24;
+
 /// The most words of a ROM image: as many as a list of exponents is long.
 pub const MOST_WORDS: u64 = MAX_COUNT as u64;
 

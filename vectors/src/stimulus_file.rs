@@ -24,6 +24,7 @@ use hw_model::rounding::Rounding;
 use thiserror::Error;
 
 use crate::case::Case;
+use crate::limits::MOST_CYCLES;
 use crate::records::{Record, RecordError, Records};
 use crate::text_file::{self, STIMULUS, TextError, TextReader};
 
@@ -81,9 +82,6 @@ pub enum StimulusError {
         nothing: bool,
     },
 }
-
-/// The most clock cycles of a file: they take 700 MB.
-const MOST_CYCLES: usize = 1 << 24;
 
 /// Reads the stimulus file at `path`; `rom` gives the addresses, `input` is the format of x.
 ///

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
+use vectors::limits::MOST_NUMBERS;
 use vectors::memory_file::{
     Header, LineProblem, MemoryError, Value, parse, read_words, write_header, write_word,
 };
@@ -103,6 +104,9 @@ fn wrong_lines_are_named() {
     assert_eq!(problem("7f\n80", 7, 2), (2, too_wide));
     assert_eq!(problem("0\n1\n2", 8, 2), (3, LineProblem::PastEnd { address: 2, depth: 2 }));
     assert_eq!(problem("@ff 0", 8, 2), (1, LineProblem::PastEnd { address: 255, depth: 2 }));
+    // A line of them as well: what is kept of a file has a limit of its own.
+    let many = "0 ".repeat(MOST_NUMBERS + 1);
+    assert_eq!(problem(&many, 8, MOST_NUMBERS), (1, LineProblem::TooMany));
     assert!(matches!(read("0\n@2 1", 8, 3), Err(MemoryError::Short { address: 1, found: 2, .. })));
     let error = read_words(Path::new("no/such.mem"), 8, 1).unwrap_err().to_string();
     assert!(error.starts_with("cannot read the memory file no/such.mem: "), "{error}");

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::limits::MOST_NUMBERS;
 use crate::text_file::TextError;
 
 pub(crate) use read::value;
@@ -81,6 +82,12 @@ pub enum LineProblem {
         /// Words of the memory.
         depth: usize,
     },
+    /// More numbers than any memory of a bundle has words.
+    #[error(
+        "there are more than {} numbers and addresses, and no memory of a bundle has as many words",
+        MOST_NUMBERS
+    )]
+    TooMany,
     /// A `/*` that is never closed.
     #[error("a comment begins here and does not end; close it with */")]
     OpenComment,

@@ -7,6 +7,7 @@ use dashu_int::UBig;
 use dashu_int::ops::BitTest;
 
 use super::{LineProblem, MemoryError, at_line};
+use crate::limits::MOST_NUMBERS;
 use crate::text_file::{self, MEMORY};
 
 /// What a number in a memory file means.
@@ -126,7 +127,12 @@ fn tokens<'a>(text: &'a str, path: &Path) -> Result<Vec<(u64, &'a str)>, MemoryE
             }
             let comment = [rest.find("//"), rest.find("/*")].into_iter().flatten().min();
             let (code, after) = rest.split_at(comment.unwrap_or(rest.len()));
-            tokens.extend(code.split_whitespace().map(|token| (line, token)));
+            // One more is enough to see that there are too many, were all of them in one line.
+            let more = code.split_whitespace().take(MOST_NUMBERS + 1 - tokens.len());
+            tokens.extend(more.map(|token| (line, token)));
+            if tokens.len() > MOST_NUMBERS {
+                return Err(at_line(path, line, LineProblem::TooMany));
+            }
             if !after.starts_with("/*") {
                 break;
             }

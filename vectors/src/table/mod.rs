@@ -48,6 +48,14 @@ pub enum TableError {
         /// The column.
         column: String,
     },
+    /// More lines than a bundle has vectors.
+    #[error("{} has more than {most} vectors, the most of a bundle; write several bundles", path.display())]
+    Long {
+        /// The file.
+        path: PathBuf,
+        /// The most.
+        most: u64,
+    },
     /// A field is not what its column holds.
     #[error("{}:{line}: column `{column}`: {text:?} is not {wanted}", path.display())]
     Field {

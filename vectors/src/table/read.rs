@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use super::TableError;
 use crate::case::Case;
+use crate::limits::MAX_VECTORS;
 use crate::reference::Expected;
 use crate::text_file::{self, TextError, TextReader, VECTOR_TABLE};
 
@@ -33,7 +34,14 @@ pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
     let row = |record: csv::Result<csv::StringRecord>| {
         columns.row(&Line { path, record: record.map_err(|cause| in_file(path, cause))? })
     };
-    reader.records().map(row).collect()
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        if rows.len() as u64 == MAX_VECTORS {
+            return Err(TableError::Long { path: path.to_owned(), most: MAX_VECTORS });
+        }
+        rows.push(row(record)?);
+    }
+    Ok(rows)
 }
 
 /// The integers in some columns of the table at `path`, line by line.
