@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants fuzz \
+.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
 	alterations clean help
 
 CARGO ?= cargo
@@ -118,6 +118,9 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
 	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
+
+mutants-rust: ## the Rust code altered on purpose, under its tests: which alterations nobody sees; takes hours
+	@scripts/mutants-rust
 
 fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in results/fuzz
 	$(CARGO) run $(CHECKED) --locked --quiet --bin fuzz -- $(or $(MINUTES),30) $(SEED)

@@ -370,4 +370,37 @@ mod tests {
         assert_eq!(constant(FieldName::C3), Place::Stored { lsb: 0 });
         assert_eq!(Layout::of(&rows[..1], &formats()).word_width(), 35 + 63 + 1 + 23);
     }
+    #[test]
+    fn a_rom_counts_words_and_bits_and_finds_its_exponents() {
+        let rows: Vec<Row> = (1..4)
+            .map(|i| {
+                let mut row = Row::default();
+                row.set(FieldName::C3, i);
+                row
+            })
+            .collect();
+        let rom = Rom::new("1,2.5,8".parse().unwrap(), rows.clone(), &formats());
+        assert_eq!((rom.depth(), rom.address_width(), rom.bits()), (3, 2, 3 * 35));
+        assert_eq!([1.0, 2.5, 8.0, 9.0].map(|n| rom.address_of(n)), [0, 1, 2, 3]);
+        assert_eq!((rom.row(2), rom.row(3)), (Some(&rows[2]), None));
+        let names: Vec<String> =
+            rom.layout().fields().iter().map(|field| field.name.to_string()).collect();
+        assert_eq!(names, ["c3", "c2", "c0", "cut"]);
+        // One place more than words where these are a power of two.
+        let four = Rom::new("1..=4".parse().unwrap(), vec![Row::default(); 4], &formats());
+        assert_eq!(four.address_width(), 3);
+    }
+
+    /// Configurations, columns, RTL and documentation have these names.
+    #[test]
+    fn fields_have_their_names() {
+        let names = |fields: [FieldName; 4]| fields.map(FieldName::name);
+        assert_eq!(names(FieldName::COEFFICIENTS), ["c0", "c1", "c2", "c3"]);
+        let outer = ["c0_outer", "c1_outer", "c2_outer", "c3_outer"];
+        assert_eq!(names(FieldName::OUTER_COEFFICIENTS), outer);
+        let others = [FieldName::Cut, FieldName::HandOver, FieldName::Shift, FieldName::ShiftOuter];
+        assert_eq!(names(others), ["cut", "hand_over", "shift", "shift_outer"]);
+        assert_eq!(format!("{:>7}", FieldName::TailA), " tail_a");
+        assert_eq!(FieldName::TailB.name(), "tail_b");
+    }
 }

@@ -148,6 +148,13 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
+    fn modes_have_their_names() {
+        let names = Rounding::ALL.map(|mode| mode.to_string());
+        assert_eq!(names, ["floor", "nearest_up", "nearest_even", "toward_zero"]);
+        assert_eq!(Rounding::ALL.map(Rounding::is_nearest), [false, true, true, false]);
+    }
+
+    #[test]
     fn ties_and_signs_go_where_the_table_says() {
         // value in quarters: −1½, −¼, ½, ¾, 1½, 2½
         let quarters = [-6_i64, -1, 2, 3, 6, 10];

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::design::Design;
@@ -67,9 +68,16 @@ impl Tally {
     }
 }
 
+/// Complaints of all tests, and how many are enough: a model that is wrong everywhere is soon done with.
+static COMPLAINTS: AtomicU64 = AtomicU64::new(0);
+const ENOUGH: u64 = 40;
+
 /// Runs one configuration; a panic anywhere in the golden model is a complaint like any other.
 fn guarded(config: &Config, run: impl FnOnce(&mut Tally) -> Result<(), Complaint>) -> Tally {
     let mut tally = Tally::default();
+    if COMPLAINTS.load(Ordering::Relaxed) >= ENOUGH {
+        return tally;
+    }
     let outcome = catch_unwind(AssertUnwindSafe(|| run(&mut tally)));
     let complaint = match outcome {
         Ok(Ok(())) => return tally,
@@ -83,6 +91,7 @@ fn guarded(config: &Config, run: impl FnOnce(&mut Tally) -> Result<(), Complaint
             Complaint { kind: Kind::Panic, text: text.to_owned() }
         }
     };
+    COMPLAINTS.fetch_add(1, Ordering::Relaxed);
     let text: String = config.to_json().split_whitespace().collect();
     tally.complaints.push((text, complaint));
     tally
@@ -145,7 +154,8 @@ fn a_million_random_inputs_agree() {
         println!("  refused {count}: {text} ...");
     }
     tally.assert_none();
-    assert!(tally.compared >= 1_000_000, "{}", tally.compared);
+    // All of them are a million; fewer configurations, in proportion.
+    assert!(tally.compared >= 1_000_000 * count / CONFIGURATIONS, "{}", tally.compared);
     assert!(tally.refused() * 2 < count, "refusals are to be a minority: {}", tally.refused());
 }
 
