@@ -5,6 +5,7 @@ pub mod analysis;
 pub mod certify;
 pub mod cmd;
 pub mod document;
+pub mod evaluate;
 pub mod interval;
 pub mod pipeline;
 pub mod plot;

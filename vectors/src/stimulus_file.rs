@@ -216,8 +216,11 @@ impl Columns {
     }
 }
 
-/// An exponent of 1 or more; whether the ROM has it is the hardware's business.
-fn exponent(text: &str) -> Result<f64, String> {
+/// The field `n`: an exponent of 1 or more; whether the ROM has it is the hardware's business.
+///
+/// # Errors
+/// What is wrong with the text, and what would be right.
+pub fn exponent(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(n) if n.is_finite() && n >= 1.0 => Ok(n),
         Ok(_) => Err(format!("{text} is not an exponent; exponents are finite numbers from 1 up")),
@@ -225,7 +228,11 @@ fn exponent(text: &str) -> Result<f64, String> {
     }
 }
 
-fn real(text: &str, input: QFormat) -> Result<i64, String> {
+/// The field `x`: the bits of a real number, rounded to the nearest x of the format, ties to even.
+///
+/// # Errors
+/// What is wrong with the text, and what would be right.
+pub fn real(text: &str, input: QFormat) -> Result<i64, String> {
     let value: f64 = text.parse().map_err(|_| {
         format!("{text:?} is not a number; write x as a decimal such as 0.75, or use `x_bits`")
     })?;
@@ -233,8 +240,11 @@ fn real(text: &str, input: QFormat) -> Result<i64, String> {
         .map_err(|error| error.to_string())
 }
 
-/// A signed integer, or a word of the format as `0x…`, two's complement where it is signed.
-fn bits(text: &str, input: QFormat) -> Result<i64, String> {
+/// The field `x_bits`: a signed integer, or a word of the format as `0x…`, two's complement where it is signed.
+///
+/// # Errors
+/// What is wrong with the text, and what would be right.
+pub fn bits(text: &str, input: QFormat) -> Result<i64, String> {
     let not_bits =
         |_| format!("{text:?} is not an integer; write the bits of x such as 8388607 or 0x7fffff");
     if let Some(digits) = text.strip_prefix("0x") {

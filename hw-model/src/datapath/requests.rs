@@ -157,6 +157,16 @@ impl<const N: usize, const W: usize> Requests<N, W> {
         Status::of_bits(self.status[request] as u8)
     }
 
+    /// The part of the pipeline that answered a request.
+    #[must_use]
+    pub const fn region(&self, request: usize) -> Region {
+        match self.regions[request] {
+            1 => Region::Polynomial,
+            2 => Region::Tail,
+            _ => Region::Zero,
+        }
+    }
+
     /// One request on its own, with every value that a rank may show of it.
     #[must_use]
     pub fn flight(&self, datapath: &Datapath, logic: &Logic, request: usize) -> Flight {

@@ -11,6 +11,7 @@ mod coefficients;
 mod configuration;
 mod design;
 mod document;
+mod evaluate;
 mod mesh;
 mod output;
 mod pareto;
@@ -55,6 +56,7 @@ enum Command {
     Check(check::Args),
     Certify(certify::Args),
     Simulate(simulate::Args),
+    Evaluate(evaluate::Args),
     Claims(claims::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
@@ -166,6 +168,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Check(args) => check::run(&args, out),
         Command::Certify(args) => certify::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
+        Command::Evaluate(args) => evaluate::run(&args, out),
         Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),

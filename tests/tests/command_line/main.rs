@@ -8,6 +8,7 @@ mod check;
 mod closed_output;
 mod coefficients;
 mod design;
+mod evaluate;
 mod help;
 mod meshes;
 mod output;

@@ -82,6 +82,10 @@ pub const SYNTHESIS_TABLE: TextKind =
 /// A stimulus file.
 pub const STIMULUS: TextKind = TextKind::lines("stimulus", 512 * MIB);
 
+/// Questions for the golden model, which are answered as they come.
+pub const QUESTIONS: TextKind =
+    TextKind { most_line_bytes: 4096, ..TextKind::lines("list of questions", 1 << 60) };
+
 /// A log of answers.
 pub const ANSWER_LOG: TextKind = TextKind::lines("log", 16 * GIB);
 

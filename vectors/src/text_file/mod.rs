@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 pub use kinds::{
-    ANSWER_LOG, CERTIFICATE, CONFIGURATION, MANIFEST, MEMORY, MESH, PARETO_TABLE, REGISTER_LOG,
-    SCENE, STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
+    ANSWER_LOG, CERTIFICATE, CONFIGURATION, MANIFEST, MEMORY, MESH, PARETO_TABLE, QUESTIONS,
+    REGISTER_LOG, SCENE, STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
 };
 pub(crate) use punctuation::why_other_count;
 pub use punctuation::{decimal_comma, foreign_separator};

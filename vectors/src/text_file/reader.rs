@@ -81,7 +81,8 @@ impl<R: Read> TextReader<R> {
 
     fn begin(&mut self) -> Result<(), TextProblem> {
         self.begun = true;
-        while !self.ended && self.raw.len() < BEGINNING {
+        // A line is enough: who writes one and waits for an answer writes no more.
+        while !self.ended && self.raw.len() < BEGINNING && !self.raw.contains(&b'\n') {
             self.read_more()?;
         }
         if let Some(name) = foreign(&self.raw) {
