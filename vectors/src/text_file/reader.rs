@@ -81,8 +81,7 @@ impl<R: Read> TextReader<R> {
 
     fn begin(&mut self) -> Result<(), TextProblem> {
         self.begun = true;
-        // A line is enough: who writes one and waits for an answer writes no more.
-        while !self.ended && self.raw.len() < BEGINNING && !self.raw.contains(&b'\n') {
+        while !self.ended && self.raw.len() < BEGINNING && !is_plain_line(&self.raw) {
             self.read_more()?;
         }
         if let Some(name) = foreign(&self.raw) {
@@ -153,6 +152,13 @@ impl<R: Read> TextReader<R> {
         }
         Ok(())
     }
+}
+
+/// Whether a line of ASCII is there, which no other encoding begins with: it is enough, as who writes a line and waits for
+/// an answer writes no more.
+fn is_plain_line(beginning: &[u8]) -> bool {
+    let text = beginning.strip_prefix(UTF8_MARK).unwrap_or(beginning);
+    text.len() >= 4 && text.contains(&b'\n') && text.is_ascii() && !text.contains(&0)
 }
 
 impl<R: Read> BufRead for TextReader<R> {
