@@ -49,7 +49,7 @@ pub enum Disagreement {
         cycle: u64,
         /// Line of the log, counted from 1.
         line: u64,
-        /// Which.
+        /// The name of the register or port.
         name: String,
         /// Its bits in hex, or x.
         got: String,

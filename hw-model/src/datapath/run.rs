@@ -69,7 +69,7 @@ pub(super) trait Known {
     fn lines(lines: Lines) -> Lines;
 }
 
-/// Nothing.
+/// A data path of which nothing is known when the loop is compiled: every line is asked what it does.
 pub(super) struct Anything;
 
 /// Every line rounds to the nearest, a tie up (otherwise down), and is plain, in the centred form, which subtracts

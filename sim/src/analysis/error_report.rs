@@ -52,11 +52,11 @@ pub struct ErrorRow {
     pub input_abs: f64,
     /// The pipeline against x^n at representable x, on the epicentre.
     pub total_abs: f64,
-    /// Where.
+    /// The x of that error.
     pub total_x: f64,
     /// The same on all of [0, 1].
     pub full_range_abs: f64,
-    /// Where.
+    /// The x of that error.
     pub full_range_x: f64,
     /// total_abs is within the bound.
     pub holds: bool,

@@ -42,7 +42,7 @@ pub(super) struct Facts<'a> {
 }
 
 impl<'a> Facts<'a> {
-    /// Finds out.
+    /// Computes the facts of a design: what its registers reach, and what each adds to the error.
     pub(super) fn new(design: &'a Design) -> Self {
         let datapath = design.datapath();
         Self {

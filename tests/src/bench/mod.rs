@@ -23,7 +23,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Both.
+    /// Every pattern, in the order of the tables.
     pub const ALL: [Self; 2] = [Self::Sweep, Self::Random];
 
     /// For tables and the harness.

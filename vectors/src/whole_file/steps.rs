@@ -25,10 +25,10 @@ pub(super) fn step() -> io::Result<()> {
     Ok(())
 }
 
-/// Nothing.
+/// A release takes no step: only builds with debug assertions can be told to stop at one.
 ///
 /// # Errors
-/// None.
+/// This one has no errors; the signature is that of builds which do.
 #[cfg(not(debug_assertions))]
 pub(super) const fn step() -> io::Result<()> {
     Ok(())

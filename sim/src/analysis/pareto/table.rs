@@ -21,17 +21,17 @@ pub struct Row {
     pub every: u64,
     /// The greatest error where x^n ≥ Q.
     pub epicentre_worst: Option<f64>,
-    /// Where.
+    /// The exponent of that error.
     pub epicentre_worst_n: Option<f64>,
-    /// Where.
+    /// The x of that error.
     pub epicentre_worst_x: Option<f64>,
     /// The root of the mean square there.
     pub epicentre_rms: Option<f64>,
     /// The greatest error on all of [0, 1].
     pub whole_worst: Option<f64>,
-    /// Where.
+    /// The exponent of that error.
     pub whole_worst_n: Option<f64>,
-    /// Where.
+    /// The x of that error.
     pub whole_worst_x: Option<f64>,
     /// The root of the mean square.
     pub whole_rms: Option<f64>,

@@ -135,7 +135,7 @@ pub enum SizingError {
         nearest: String,
         /// Its real error.
         real: f64,
-        /// Where.
+        /// The exponent of that error.
         n: f64,
         /// What kept it from being built.
         why: String,
