@@ -116,7 +116,8 @@ synth: setup-all ## synthesise every preset for two FPGAs, and write the table o
 	@scripts/synth.py --blysk "$(BLYSK)" --out $(RESULTS)/synth
 
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
-	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
+	BLYSK_JUDGED=all $(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants \
+		judgements_are_those_of_every_input
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
 
 mutants-rust: ## the Rust code altered on purpose, under its tests: which alterations nobody sees; takes hours
