@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use hw_model::datapath::{Datapath, Register};
 
+use vectors::output_text::io_error;
 use vectors::rtl::probes::ports;
 
 use crate::run::Cycle;
@@ -81,13 +82,4 @@ fn field<W: Write>(csv: &mut csv::Writer<W>, bits: Option<i64>) -> io::Result<()
         None => csv.write_field("x"),
     };
     written.map_err(io_error)
-}
-
-/// The I/O error inside an error of writing CSV, with its kind.
-pub(crate) fn io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        // A line of another length than the header: a mistake of the program.
-        kind => io::Error::other(format!("{kind:?}")),
-    }
 }

@@ -9,7 +9,6 @@ use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::presets;
 use proptest::prelude::*;
-use sim::analysis::error_report::Progress;
 use sim::render::{
     Bvh, Codes, Part, Pipeline, Presented, Ray, Samples, SurfacePixel, Which, difference, meet,
     presented, reference, samples, shade,
@@ -17,6 +16,7 @@ use sim::render::{
 use sim::scene::{
     Angle, Knot, Light, Normals, Origin, Scene, Shape, Surface, Triangle, Vector, schema, triangles,
 };
+use vectors::progress::Progress;
 
 struct Silent;
 impl Progress for Silent {

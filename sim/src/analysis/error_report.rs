@@ -5,13 +5,12 @@
 //! [`SPREAD`] points spread evenly over the epicentre, as many over [0, 1], and the last
 //! [`NEAREST`] x below 1.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use hw_model::config::{Config, Cut};
 use hw_model::design::{Design, RealRow};
 use hw_model::fit::{FitError, fit};
 use rayon::prelude::*;
 use serde::Serialize;
+use vectors::progress::Progress;
 use vectors::stimulus::corners::Corners;
 
 use super::approximation::{ApproximationError, Region, approximation};
@@ -81,18 +80,6 @@ pub struct ErrorReport {
     pub budget_ulp: f64,
     /// One for each exponent.
     pub rows: Vec<ErrorRow>,
-}
-
-/// Counts samples as they are done, for a progress bar.
-pub trait Progress: Sync {
-    /// `samples` more are done.
-    fn advance(&self, samples: u64);
-}
-
-impl Progress for AtomicU64 {
-    fn advance(&self, samples: u64) {
-        self.fetch_add(samples, Ordering::Relaxed);
-    }
 }
 
 /// Measures every exponent. Rows and pieces go to all threads; the result does not depend on their number.

@@ -19,8 +19,8 @@ use super::curve::is_exact;
 use super::error::{ErrorFunction, EveryExponent, OneExponent};
 use super::hardware_check::check_hardware;
 use super::partition::boxes;
-use crate::analysis::error_report::Progress;
 use crate::seal::BrokenSeal;
+use vectors::progress::Progress;
 
 /// Why a certificate is refused.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]

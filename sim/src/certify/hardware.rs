@@ -14,8 +14,9 @@ use hw_model::highlight::{ExactPower, phong};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::limits::{Sweep, TooManyInputs, inputs};
+use vectors::progress::Progress;
 
-use crate::analysis::error_report::{ErrorRow, Options, Progress, error_report};
+use crate::analysis::error_report::{ErrorRow, Options, error_report};
 use crate::interval::Interval;
 
 /// x and intensity of at most this many bits are f64, exactly.

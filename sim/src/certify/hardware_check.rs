@@ -14,8 +14,8 @@ use super::check::Fault;
 use super::hardware::{
     HardwareClaim, HardwareRow, Worst, exact_power, least_error, overall, points, power,
 };
-use crate::analysis::error_report::Progress;
 use crate::interval::Interval;
+use vectors::progress::Progress;
 
 /// x that go through the data path together, and x that make one piece of work for a thread.
 const BLOCK: i64 = 4096;

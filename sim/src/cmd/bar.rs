@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::analysis::error_report::Progress;
+use vectors::progress::Progress;
 
 /// What is shown, line by line; whoever draws, draws here, so that no line breaks another.
 static SHOWN: LazyLock<MultiProgress> = LazyLock::new(|| {

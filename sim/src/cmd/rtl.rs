@@ -11,7 +11,7 @@ use vectors::{Bundle, Strategy, rtl};
 use super::bar::Bar;
 use super::configuration::Configuration;
 use super::{Out, Outcome, output};
-use crate::analysis::error_report::Progress;
+use vectors::progress::Progress;
 
 /// Write the RTL with its testbench, vectors and a Makefile that runs them.
 ///

@@ -12,11 +12,11 @@ use super::configuration::Configuration;
 use super::recordings::{Recordings, Target};
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
-use crate::analysis::error_report::Progress;
 use crate::pipeline::Pipeline;
 use crate::run::{Counts, Cycle, StimulusCycle, run as run_stimulus, settle};
 use crate::trace::TraceWriter;
 use crate::waves::{WaveFormat, WaveWriter};
+use vectors::progress::Progress;
 
 /// Run a stimulus through the clocked pipeline; record every register, every cycle.
 ///

@@ -7,7 +7,7 @@ use comfy_table::{CellAlignment, ContentArrangement, Table};
 use serde::Serialize;
 use serde::ser::SerializeMap;
 
-use crate::trace::io_error;
+use vectors::output_text::io_error;
 
 /// The widest line of a table for people; longer cells are folded.
 const TERMINAL_WIDTH: u16 = 100;

@@ -12,7 +12,7 @@ use super::bar::Bar;
 use super::configuration::Configuration;
 use super::table::write_folded;
 use super::{Out, Outcome, output};
-use crate::analysis::error_report::Progress;
+use vectors::progress::Progress;
 
 /// Write test vectors for an RTL simulation.
 ///

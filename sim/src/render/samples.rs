@@ -5,8 +5,8 @@ use rayon::prelude::*;
 use super::angle::presented;
 use super::bvh::Bvh;
 use super::rays::ray;
-use crate::analysis::error_report::Progress;
 use crate::scene::Scene;
+use vectors::progress::Progress;
 
 pub use super::angle::Presented as Sample;
 

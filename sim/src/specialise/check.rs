@@ -26,10 +26,10 @@ use super::codes::pixels_outside;
 use super::compare::certify;
 use super::demand::{Demand, demands};
 use super::derive::{Row, kept, rows};
-use crate::analysis::error_report::Progress;
 use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
 use crate::seal::{BrokenSeal, Unreadable, identity};
+use vectors::progress::Progress;
 
 /// What the user says the certificate must be about.
 #[derive(Debug, Clone, Copy, Default)]

@@ -13,9 +13,9 @@ use super::check::Refused;
 use super::compare::certify;
 use super::demand::Demand;
 use super::derive::{Row, SpecialiseError, derive, kept};
-use crate::analysis::error_report::Progress;
 use crate::render::Samples;
 use crate::scene::Scene;
+use vectors::progress::Progress;
 
 /// Why there is no certified hardware.
 #[derive(Debug, thiserror::Error)]

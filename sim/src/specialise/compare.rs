@@ -9,9 +9,9 @@ use vectors::limits::{Sweep, TooManyInputs};
 use super::certificate::{Display, Part, Proved};
 use super::check::Refused;
 use super::derive::Row;
-use crate::analysis::error_report::Progress;
 use crate::render::Codes;
 use crate::scene::{DISPLAY_BITS, Image};
+use vectors::progress::Progress;
 
 /// x that are looked at together.
 const PIECE: i64 = 1 << 14;

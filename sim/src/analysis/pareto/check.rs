@@ -203,9 +203,9 @@ fn error_at(contender: &Contender, inputs: &Inputs, row: usize, bits: i64) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::error_report::Progress;
     use crate::analysis::pareto::compare;
     use crate::analysis::pareto::contender::Contenders;
+    use vectors::progress::Progress;
 
     struct Quiet;
     impl Progress for Quiet {

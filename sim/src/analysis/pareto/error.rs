@@ -9,8 +9,8 @@ use rayon::prelude::*;
 
 use super::contender::{Contender, Work};
 use super::inputs::{Inputs, Samples};
-use crate::analysis::error_report::Progress;
 use crate::analysis::reference_product::ReferenceProduct;
+use vectors::progress::Progress;
 
 /// x that stay in the cache together.
 const BLOCK: u64 = 512;

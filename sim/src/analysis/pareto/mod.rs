@@ -33,7 +33,7 @@ use self::error::{ContenderErrors, Errors};
 use self::inputs::Inputs;
 use self::synthesis::Synthesis;
 use self::timing::TimingError;
-use super::error_report::Progress;
+use vectors::progress::Progress;
 
 pub use self::table::{ParetoReport, Row, TimingReport, TimingRow};
 

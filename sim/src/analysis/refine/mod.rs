@@ -22,9 +22,9 @@ use rayon::prelude::*;
 use serde::Serialize;
 use vectors::limits::{Sweep, TooManyInputs};
 
-use super::error_report::Progress;
 use piece::Piece;
 pub use piece::Range;
+use vectors::progress::Progress;
 
 /// How far to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

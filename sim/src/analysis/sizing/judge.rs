@@ -10,8 +10,8 @@ use hw_model::design::Design;
 use hw_model::highlight::phong;
 use rayon::prelude::*;
 
-use super::super::error_report::Progress;
 use super::super::sweep::estimate;
+use vectors::progress::Progress;
 
 /// x that make one piece of work for a thread.
 const PIECE: i64 = 1 << 16;

@@ -27,7 +27,6 @@ use hw_model::rounding::Rounding;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::error_report::Progress;
 use super::refine::within_its_bound;
 pub use candidates::RealError;
 pub use judge::Place;
@@ -35,6 +34,7 @@ use judge::{Judge, greatest};
 use narrow::State;
 pub use registers::Hardware;
 pub(crate) use registers::{NAMES, of_design, of_stated, stated, taken, tight};
+use vectors::progress::Progress;
 pub use witness::{Breaks, Fewer, Witness};
 
 /// Over which x the error is to be kept.

@@ -9,12 +9,12 @@
 use hw_model::design::{Design, DesignError, Revision};
 use hw_model::format::QFormat;
 
-use super::super::error_report::Progress;
 use super::super::refine::NO_BUDGET;
 use super::judge::{Judge, Place, greatest};
 use super::registers::{
     Each, Hardware, NAMES, ROOMS, loosened, stated, taken, tight, with_fraction,
 };
+use vectors::progress::Progress;
 
 /// A state of the search: formats with no integer bit to spare.
 #[derive(Debug, Clone, Copy, PartialEq)]

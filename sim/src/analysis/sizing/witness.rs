@@ -6,11 +6,11 @@ use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::highlight::phong;
 
-use super::super::error_report::Progress;
 use super::SizingError;
 use super::judge::{Judge, greatest};
 use super::narrow::{State, loose};
 use super::registers::{Each, Hardware, NAMES, holds, taken, with_fraction, with_integer_less};
+use vectors::progress::Progress;
 
 /// At which end the bit is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use self::scan::{Scan, Seam};
-use crate::analysis::error_report::Progress;
+use vectors::progress::Progress;
 
 /// Pairs that make one piece of work for a thread.
 const PIECE: i64 = 1 << 18;
