@@ -2,18 +2,15 @@
 
 pub mod agreement;
 pub mod analysis;
-pub mod certify;
 pub mod cmd;
 pub mod document;
 pub mod evaluate;
-pub mod interval;
 pub mod pipeline;
 pub mod plot;
 pub mod render;
 pub mod report;
 pub mod run;
 pub mod scene;
-pub mod seal;
 pub mod specialise;
 pub mod stream;
 pub mod trace;

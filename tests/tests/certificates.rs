@@ -9,13 +9,15 @@ use hw_model::design::Design;
 use hw_model::fit::{Levels, Method, fit};
 use proptest::prelude::*;
 use sim::analysis::approximation::{self, approximation};
-use sim::certify::certificate::{Certificate, Claim};
-use sim::certify::check::{Fault, check};
-use sim::certify::claim::{Claims, Enclosure, Finding, Region};
-use sim::certify::curve::{Curve, Logs, reciprocal};
-use sim::certify::hardware::{HardwareClaim, Worst, certify_hardware};
-use sim::certify::search::{claim_every_exponent, claim_exponent};
-use sim::interval::{Interval, Slopes};
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::check;
+use bounds::certify::fault::Fault;
+use bounds::certify::claim::{Claims, Enclosure, Finding, Region};
+use bounds::certify::curve::{Curve, Logs, reciprocal};
+use bounds::certify::hardware::{HardwareClaim, Worst};
+use sim::analysis::hardware_claim::certify_hardware;
+use bounds::certify::search::{claim_every_exponent, claim_exponent};
+use bounds::interval::{Interval, Slopes};
 
 fn exponents() -> impl Strategy<Value = f64> {
     prop_oneof![(0.0_f64..12.0).prop_map(|e| 10.0_f64.powf(e)), (1_u32..=1024).prop_map(f64::from)]
@@ -236,7 +238,7 @@ fn another_subject_or_region_is_refused() {
     enclosure(&mut forged).far = Some(1.0);
     assert!(fault(forged).unwrap().field.ends_with("absolute.far"));
     let Claim::Exponents(claims) = &good else { panic!("it is about exponents") };
-    let refused = |alter: fn(&mut sim::certify::claim::ExponentClaim), field: &str| {
+    let refused = |alter: fn(&mut bounds::certify::claim::ExponentClaim), field: &str| {
         let mut forged = claims.clone();
         alter(&mut forged.claims[0]);
         let found = fault(Claim::Exponents(forged)).expect("it is a forgery");

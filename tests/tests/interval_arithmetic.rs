@@ -3,7 +3,7 @@
 
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use sim::interval::Interval;
+use bounds::interval::Interval;
 
 /// Binary places of a fixed-point number; the sums below are off by less than 2^−300.
 const PLACES: i64 = 400;

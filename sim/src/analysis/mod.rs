@@ -4,6 +4,7 @@
 pub mod approximation;
 pub mod claims;
 pub mod error_report;
+pub mod hardware_claim;
 pub mod pareto;
 pub mod reference_product;
 pub mod refine;

@@ -10,7 +10,7 @@ use hw_model::design::Design;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{DISPLAY_BITS, Transfer};
-use crate::seal::{self, BrokenSeal, Sealed, Unreadable};
+use bounds::seal::{self, BrokenSeal, Sealed, Unreadable};
 
 /// How alike the answers are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

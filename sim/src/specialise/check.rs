@@ -6,7 +6,7 @@
 //!
 //! | field | is |
 //! |---|---|
-//! | `format`, `version`, `sha256` | the file is whole: [`crate::seal`] |
+//! | `format`, `version`, `sha256` | the file is whole: [`bounds::seal`] |
 //! | `source` | the configuration asked for, where one is; else a proposal, named in the sentence |
 //! | `specialised` | the source with rows, parts and bits left out, and nothing else changed |
 //! | `display`, `scene`, `parts[].n`, `.least` | those of the scene, where one is given; else proposals, named |
@@ -28,7 +28,7 @@ use super::demand::{Demand, demands};
 use super::derive::{Row, kept, rows};
 use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
-use crate::seal::{BrokenSeal, Unreadable, identity};
+use bounds::seal::{BrokenSeal, Unreadable, identity};
 use vectors::progress::Progress;
 
 /// What the user says the certificate must be about.

@@ -10,7 +10,7 @@ use std::collections::BinaryHeap;
 
 use super::space::Rays;
 use super::tile;
-use crate::interval::Interval;
+use bounds::interval::Interval;
 use crate::render::{meet, presented, ray};
 use crate::scene::{Light, Scene, Shape, Surface};
 

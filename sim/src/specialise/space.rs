@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::interval::Interval;
+use bounds::interval::Interval;
 use crate::scene::{Image, Vector, View};
 
 /// Three intervals.

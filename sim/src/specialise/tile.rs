@@ -2,7 +2,7 @@
 //! intervals.
 
 use super::space::{Rays, Space};
-use crate::interval::Interval;
+use bounds::interval::Interval;
 use crate::scene::{Angle, Light, Origin, Shape, Vector};
 
 /// Where the rays of a tile meet a surface: the cosine between normal and viewer, and the rest a light needs.

@@ -3,7 +3,7 @@
 //! A claim about exponents is judged for all of them: from which n it fails is found by bisection over
 //! the integers up to [`GREATEST`], and the answer is then held against every n up to [`EXAMINED`] and
 //! every power of two above. Where the answer rests on the error of a method on its epicentre, the
-//! enclosures of [`crate::certify`] must say the same at the last n and at the next. A claim about a printed formula is judged by what the formula gives.
+//! enclosures of [`bounds::certify`] must say the same at the last n and at the next. A claim about a printed formula is judged by what the formula gives.
 
 mod accuracy;
 mod boundary;
@@ -20,7 +20,7 @@ use hw_model::fit::{FitError, LevelsError};
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-use crate::certify::search::NotProved;
+use bounds::certify::search::NotProved;
 
 pub use boundary::{EXAMINED, GREATEST};
 

@@ -1,4 +1,4 @@
-//! Verdicts that rest on more than f64: the enclosures of [`crate::certify`] at the exponents that decide.
+//! Verdicts that rest on more than f64: the enclosures of [`bounds::certify`] at the exponents that decide.
 //!
 //! The last operation on a proved end, a product or a quotient, is rounded to nearest and not outwards. It
 //! moves the end by less than 2⁻⁵² of itself; the enclosures are 10⁻⁷ wide, and what they must decide is
@@ -8,8 +8,8 @@ use hw_model::fit::{Levels, Method};
 
 use super::comparison::Comparison;
 use super::{Claim, ClaimsError, Evidence, Verdict};
-use crate::certify::claim::{ExponentClaim, Region};
-use crate::certify::search::{claim_every_exponent, claim_exponent};
+use bounds::certify::claim::{ExponentClaim, Region};
+use bounds::certify::search::{claim_every_exponent, claim_exponent};
 
 /// A number between two others.
 #[derive(Debug, Clone, Copy)]

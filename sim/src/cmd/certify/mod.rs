@@ -20,12 +20,13 @@ use super::configuration::{find_preset, load_config};
 use super::report::bound;
 use super::table::{Format, write_folded};
 use super::{Out, Outcome, output};
-use crate::certify::certificate::{Certificate, Claim};
-use crate::certify::check::{Checked, check};
-use crate::certify::claim::{Claims, Region};
-use crate::certify::hardware::{certify_hardware, points};
-use crate::certify::search::{claim_every_exponent, claim_exponent};
-use crate::seal::identity;
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::{Checked, check};
+use bounds::certify::claim::{Claims, Region};
+use bounds::certify::hardware::points;
+use crate::analysis::hardware_claim::certify_hardware;
+use bounds::certify::search::{claim_every_exponent, claim_exponent};
+use bounds::seal::identity;
 use vectors::progress::Progress;
 
 /// Enclose the greatest error rigorously, and write or check a certificate of it.

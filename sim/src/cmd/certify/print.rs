@@ -5,9 +5,9 @@ use std::io::Write;
 use hw_model::fit::Method;
 
 use super::super::table::{Cell, Format, Rows, digits};
-use crate::certify::certificate::Claim;
-use crate::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Region};
-use crate::certify::hardware::{HardwareClaim, HardwareRow, Overall, Worst};
+use bounds::certify::certificate::Claim;
+use bounds::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Region};
+use bounds::certify::hardware::{HardwareClaim, HardwareRow, Overall, Worst};
 use crate::cmd::Out;
 
 /// More exponents than that are summed up in a table.

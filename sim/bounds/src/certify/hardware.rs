@@ -1,11 +1,7 @@
 //! The bound of a configuration as bits, by exhaustion: every representable x in [0, 1] of every ROM row.
 //!
-//! Not by the sum of approximation, coefficient and data-path error, which is above the truth by what
-//! these three cancel. The reference is x^n correctly rounded, off by half an ulp of a number that is at
-//! most 1: 2⁻⁵⁴. The difference of two f64 is rounded to the nearest as well, by at most 2⁻⁵⁴ again. So
-//! the greatest of all differences that the sweep computes, and 2⁻⁵³, is not less than the greatest error.
-//! (Where the sweep spares the reference, it does so for points that cannot exceed what was seen; it is not
-//! believed: `hardware_check.rs` looks at every x again, in another way.)
+//! What is claimed of a configuration. `hardware_check.rs` goes through every x again; who finds the claim is not known
+//! here.
 
 use hw_model::config::Config;
 use hw_model::design::Design;
@@ -14,17 +10,11 @@ use hw_model::highlight::{ExactPower, phong};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::limits::{Sweep, TooManyInputs, inputs};
-use vectors::progress::Progress;
 
-use crate::analysis::error_report::{ErrorRow, Options, error_report};
 use crate::interval::Interval;
 
 /// x and intensity of at most this many bits are f64, exactly.
 const EXACT_BITS: u32 = 53;
-
-/// More than what the sweep's errors can be short of the truth, 2⁻⁵³, by as much again: the checker's
-/// enclosures of a power reach to both its neighbours.
-const SWEEP_ERROR: f64 = f64::EPSILON;
 
 /// The greatest error of a row over some x.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -120,50 +110,12 @@ pub fn points(design: &Design) -> Result<u64, HardwareError> {
     Ok(Sweep::Certify.within(inputs(design), config.input)?)
 }
 
-/// Sweeps the whole configuration.
-///
-/// # Errors
-/// When there can be no certificate.
-pub fn certify_hardware(
-    design: &Design,
-    progress: &dyn Progress,
-) -> Result<HardwareClaim, HardwareError> {
-    let points = points(design)?;
-    let options = Options { bound: 1.0, exhaustive: true };
-    let report = error_report(design, options, progress)?;
-    let rows: Vec<HardwareRow> =
-        (0..).zip(&report.rows).map(|(address, row)| hardware_row(design, address, row)).collect();
-    Ok(HardwareClaim {
-        configuration: design.config().clone(),
-        points,
-        epicentre: overall(&rows, |row| row.epicentre).ok_or(HardwareError::NoRow)?,
-        full_range: overall(&rows, |row| row.full_range).ok_or(HardwareError::NoRow)?,
-        rows,
-    })
-}
-
 /// The row with the greatest upper bound, the first one where several have it.
-pub(super) fn overall(rows: &[HardwareRow], of: fn(&HardwareRow) -> Worst) -> Option<Overall> {
+#[must_use]
+pub fn overall(rows: &[HardwareRow], of: fn(&HardwareRow) -> Worst) -> Option<Overall> {
     let worst =
         rows.iter().reduce(|most, row| if of(row).upper > of(most).upper { row } else { most });
     worst.map(|row| Overall { n: row.n, lower: of(row).lower, upper: of(row).upper })
-}
-
-fn hardware_row(design: &Design, address: u32, row: &ErrorRow) -> HardwareRow {
-    let ulp = design.config().input.ulp();
-    let worst = |error: f64, x: f64| {
-        // x is bits·ulp, and ulp a power of two.
-        let x = (x / ulp) as i64;
-        let output = design.datapath().evaluate(address, x).intensity;
-        let lower = least_error(design, row.n, x, output);
-        Worst { lower, upper: (error + SWEEP_ERROR).next_up().max(lower), x, output }
-    };
-    HardwareRow {
-        n: row.n,
-        epicentre_from: design.rows()[address as usize].first_of_epicentre(design.config()),
-        epicentre: worst(row.total_abs, row.total_x),
-        full_range: worst(row.full_range_abs, row.full_range_x),
-    }
 }
 
 /// x^n for x in bits of the input: the neighbours of the correctly rounded power.
@@ -179,8 +131,10 @@ pub(super) fn exact_power(design: &Design, n: f64, x: i64) -> Option<ExactPower>
     ExactPower::new(u64::try_from(x).ok()?, design.config().input.fraction_bits(), exponent).ok()
 }
 
-/// |output − x^n| rounded down: exactly for an integer n of moderate size, else in intervals.
-pub(super) fn least_error(design: &Design, n: f64, x: i64, output: i64) -> f64 {
+/// |output − x^n| rounded down: exactly for an integer n of moderate size, else in intervals. x and output are bits of the
+/// formats that the design has.
+#[must_use]
+pub fn least_error(design: &Design, n: f64, x: i64, output: i64) -> f64 {
     let format = design.config().output;
     if let Some(exact) = exact_power(design, n, x) {
         return exact.error_of_bits(output, format.fraction_bits()).abs().next_down().max(0.0);

@@ -9,7 +9,7 @@
 //! By the integrals both are positive and fall for all t. So the image of an interval needs their values
 //! at its ends only, and there is no removable singularity left at 0.
 
-use super::Interval;
+use super::number::Interval;
 
 /// Where the series of ψ gives way to its formula, which cancels for small t.
 const SERIES: f64 = 1.0;

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Interval;
+use super::number::Interval;
 
 /// What a formula is written for once: an interval, or an interval with its slopes.
 pub trait Real:

@@ -17,6 +17,7 @@ use super::certificate::{Certificate, Claim};
 use super::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Region};
 use super::curve::is_exact;
 use super::error::{ErrorFunction, EveryExponent, OneExponent};
+use super::fault::Fault;
 use super::hardware_check::check_hardware;
 use super::partition::boxes;
 use crate::seal::BrokenSeal;
@@ -30,26 +31,6 @@ pub struct Refused {
     pub seal: Option<BrokenSeal>,
     /// Where the claim is false or not proved, and why.
     pub content: Option<Fault>,
-}
-
-/// A field that does not hold.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("{field}: {problem}")]
-pub struct Fault {
-    /// Such as `claims[0] (hermite, n = 4, epicentre), absolute.upper`.
-    pub field: String,
-    /// What is wrong.
-    pub problem: String,
-}
-
-impl Fault {
-    pub(super) fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { field: field.into(), problem: problem.into() }
-    }
-
-    pub(super) fn within(self, place: &str) -> Self {
-        Self { field: format!("{place}{}", self.field), ..self }
-    }
 }
 
 impl Refused {

@@ -10,7 +10,7 @@ use hw_model::design::Design;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
-use super::check::Fault;
+use super::fault::Fault;
 use super::hardware::{
     HardwareClaim, HardwareRow, Worst, exact_power, least_error, overall, points, power,
 };

@@ -1,27 +1,12 @@
-//! Interval arithmetic on f64 with outward rounding.
-//!
-//! An [`Interval`] is a set of reals that is known to hold some real number. Each operation returns a
-//! set that holds its result for every choice from the operands. IEEE 754 rounds +, −, ×, ÷ to the
-//! nearest f64, so the real result lies between the neighbours of the computed one: one `next_down`
-//! below, one `next_up` above. The same holds for `exp`, `expm1` and `log` of `core-math`, which are
-//! correctly rounded. (The platform's own are not, and differ between platforms.)
-//!
-//! What is not known is said: where no finite bound can be given (a divisor that holds zero, 0·∞, the
-//! logarithm of a number that may be negative) the result is [`Interval::UNKNOWN`], all reals, which
-//! is within no bound.
-
-mod functions;
-mod slopes;
+//! A set of reals between two f64, and what the four operations make of it.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
-
-pub use slopes::{Real, Slopes};
 
 /// All reals from `low` to `high`; the ends may be infinite, never NaN, and low ≤ high.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    low: f64,
-    high: f64,
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
 impl Interval {
@@ -50,7 +35,7 @@ impl Interval {
     /// From the neighbour below `low` to the neighbour above `high`: what two correctly rounded results
     /// enclose.
     #[must_use]
-    fn outward(low: f64, high: f64) -> Self {
+    pub(super) fn outward(low: f64, high: f64) -> Self {
         Self::new(low.next_down(), high.next_up())
     }
 
