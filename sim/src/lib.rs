@@ -6,7 +6,6 @@ pub mod cmd;
 pub mod document;
 pub mod evaluate;
 pub mod pipeline;
-pub mod plot;
 pub mod render;
 pub mod report;
 pub mod run;

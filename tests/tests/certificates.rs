@@ -4,20 +4,20 @@ use std::sync::atomic::AtomicU64;
 
 use blysk_tests::cli::SMALL;
 use blysk_tests::reference;
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::check;
+use bounds::certify::claim::{Claims, Enclosure, Finding, Region};
+use bounds::certify::curve::{Curve, Logs, reciprocal};
+use bounds::certify::fault::Fault;
+use bounds::certify::hardware::{HardwareClaim, Worst};
+use bounds::certify::search::{claim_every_exponent, claim_exponent};
+use bounds::interval::{Interval, Slopes};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::fit::{Levels, Method, fit};
 use proptest::prelude::*;
 use sim::analysis::approximation::{self, approximation};
-use bounds::certify::certificate::{Certificate, Claim};
-use bounds::certify::check::check;
-use bounds::certify::fault::Fault;
-use bounds::certify::claim::{Claims, Enclosure, Finding, Region};
-use bounds::certify::curve::{Curve, Logs, reciprocal};
-use bounds::certify::hardware::{HardwareClaim, Worst};
 use sim::analysis::hardware_claim::certify_hardware;
-use bounds::certify::search::{claim_every_exponent, claim_exponent};
-use bounds::interval::{Interval, Slopes};
 
 fn exponents() -> impl Strategy<Value = f64> {
     prop_oneof![(0.0_f64..12.0).prop_map(|e| 10.0_f64.powf(e)), (1_u32..=1024).prop_map(f64::from)]

@@ -1,9 +1,9 @@
 //! Interval arithmetic against exact numbers: m·2^e for the four operations, sums of 400 binary places with
 //! a bounded rest for the functions. None of it rounds as f64 does.
 
+use bounds::interval::Interval;
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use bounds::interval::Interval;
 
 /// Binary places of a fixed-point number; the sums below are off by less than 2^−300.
 const PLACES: i64 = 400;

@@ -9,9 +9,9 @@ use hw_model::format::QFormat;
 use hw_model::quantise::decimal;
 use hw_model::rom::{FieldName, Place};
 
-use super::canvas::{Anchor, Canvas, Point, colour, hop};
 use super::layout::{BOX, Column, LANE, Lanes, PORTS, X_HEIGHT, columns, lanes, wire};
 use super::words::line_formula;
+use plot::canvas::{Anchor, Canvas, Point, colour, hop};
 
 const TITLE: f64 = 14.0;
 const NORMAL: f64 = 12.0;

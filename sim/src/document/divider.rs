@@ -5,8 +5,8 @@ use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
 
 use super::block::{Picture, SMALL, constant, dropped, labelled};
-use super::canvas::{Anchor, colour};
 use super::layout::{BOX, Column, LANE, WIRE};
+use plot::canvas::{Anchor, colour};
 
 /// A field of the tail on its way below the lanes.
 pub(super) struct TailRow {

@@ -4,7 +4,6 @@
 //! and every x, waves from the simulator's own run, widths and alignments from the lines that compute.
 
 mod block;
-pub(crate) mod canvas;
 mod divider;
 mod examples;
 mod flip_flops;

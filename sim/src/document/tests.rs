@@ -1,9 +1,8 @@
 use hw_model::config::Config;
 use hw_model::presets;
-use resvg::usvg::{Group, Node, Rect};
+use plot::texts;
 
 use super::*;
-use crate::plot::parse;
 
 /// The presets, and what is unlike them: short and long dividers, one row, wide words.
 fn designs() -> Vec<Design> {
@@ -20,38 +19,20 @@ fn designs() -> Vec<Design> {
     configs.into_iter().chain(others).map(|config| Design::new(config).unwrap()).collect()
 }
 
-fn texts(group: &Group, found: &mut Vec<(String, Rect)>) {
-    for node in group.children() {
-        match node {
-            Node::Group(group) => texts(group, found),
-            Node::Text(text) => {
-                let words = text.chunks().iter().map(|chunk| chunk.text()).collect();
-                found.push((words, text.abs_bounding_box()));
-            }
-            _ => {}
-        }
-    }
-}
-
 /// Every word is inside the picture, and on top of no other.
 fn readable(svg: &str) {
-    let tree = parse(svg).unwrap();
-    let size = tree.size();
-    let mut found = Vec::new();
-    texts(tree.root(), &mut found);
+    let (found, size) = texts(svg).unwrap();
     assert!(found.len() > 10, "only {} texts", found.len());
-    for (index, (text, place)) in found.iter().enumerate() {
-        let inside = place.left() >= 0.0
-            && place.top() >= 0.0
-            && place.right() <= size.width()
-            && place.bottom() <= size.height();
-        assert!(inside, "{text:?} at {place:?} leaves the picture of {size:?}");
-        for (other, elsewhere) in &found[index + 1..] {
-            let apart = place.right() <= elsewhere.left()
-                || elsewhere.right() <= place.left()
-                || place.bottom() <= elsewhere.top() + 1.0
-                || elsewhere.bottom() <= place.top() + 1.0;
-            assert!(apart, "{text:?} at {place:?} covers {other:?} at {elsewhere:?}");
+    for (index, text) in found.iter().enumerate() {
+        let inside =
+            text.left >= 0.0 && text.top >= 0.0 && text.right <= size.0 && text.bottom <= size.1;
+        assert!(inside, "{text:?} leaves the picture of {size:?}");
+        for other in &found[index + 1..] {
+            let apart = text.right <= other.left
+                || other.right <= text.left
+                || text.bottom <= other.top + 1.0
+                || other.bottom <= text.top + 1.0;
+            assert!(apart, "{text:?} covers {other:?}");
         }
     }
 }
@@ -70,8 +51,7 @@ fn pictures_can_be_read() {
 #[test]
 fn the_block_diagram_shows_every_register_of_rank_0() {
     for design in designs() {
-        let mut found = Vec::new();
-        texts(parse(&block::block(&design)).unwrap().root(), &mut found);
+        let (found, _) = texts(&block::block(&design)).unwrap();
         for register in design.datapath().registers(0) {
             let two = design.datapath().has_two_segments();
             let label = match register.name {
@@ -86,7 +66,7 @@ fn the_block_diagram_shows_every_register_of_rank_0() {
                 }
                 name => format!("{name} · {}", register.format.width()),
             };
-            let times = found.iter().filter(|(text, _)| *text == label).count();
+            let times = found.iter().filter(|text| text.words == label).count();
             assert_eq!(times, 1, "{}: {label}", design.config().name);
         }
     }

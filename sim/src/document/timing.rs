@@ -3,8 +3,8 @@
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 
-use super::canvas::{Anchor, Canvas, Point, colour};
 use super::scenario::{Sample, Scenario, name};
+use plot::canvas::{Anchor, Canvas, Point, colour};
 
 /// Height of a line of the diagram.
 const LINE: f64 = 26.0;

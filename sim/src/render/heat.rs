@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::shading::Picture;
 use super::sheet::{Sheet, SheetError};
-use crate::document::canvas::{Anchor, Canvas};
+use plot::canvas::{Anchor, Canvas};
 
 /// Equal codes.
 const EQUAL: [u8; 3] = [0xec, 0xec, 0xec];

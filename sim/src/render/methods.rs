@@ -14,8 +14,8 @@ use super::requests::{Pipeline, Which};
 use super::samples::Samples;
 use super::shading::{Picture, shade};
 use super::sheet::{Sheet, SheetError};
-use crate::document::canvas::{Anchor, Canvas, MARGIN};
 use crate::scene::{Image, Scene, Transfer};
+use plot::canvas::{Anchor, Canvas, MARGIN};
 
 /// The longest side of a panel, in pixels; larger pictures show every k-th column and row.
 const PANEL: u32 = 480;

@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::png::{PngError, encode_bytes};
-use crate::plot::{PlotError, svg_to_pixels};
+use plot::{PlotError, svg_to_pixels};
 
 /// Why such a picture was not made.
 #[derive(Debug, Error)]

@@ -7,7 +7,7 @@ use hw_model::quantise::{quantise, real};
 use hw_model::{format::Overflow, rounding::Rounding};
 
 use crate::analysis::error_report::{ErrorReport, ErrorRow};
-use crate::plot::{
+use plot::{
     Chart, Curve, ReferenceLine, Scale, angle_grid, error_versus_exponent, intensity_versus_angle,
 };
 

@@ -6,7 +6,7 @@ use vectors::whole_file::{OutputError, OutputSet};
 
 use super::figures;
 use crate::analysis::error_report::ErrorReport;
-use crate::plot::{Chart, PlotError, svg_to_png};
+use plot::{Chart, PlotError, svg_to_png};
 
 /// The tables a report writes.
 pub const TABLES: [&str; 2] = ["error_vs_n.csv", "error_vs_n.json"];

@@ -7,7 +7,7 @@ use vectors::whole_file::{OutputError, OutputSet};
 
 use super::pareto_figures::figures;
 use crate::analysis::pareto::{ParetoReport, Row};
-use crate::plot::{PlotError, svg_to_png};
+use plot::{PlotError, svg_to_png};
 
 /// The table that is the same run after run.
 pub const TABLE: &str = "pareto.csv";

@@ -2,7 +2,7 @@
 
 use crate::analysis::pareto::front::dominators;
 use crate::analysis::pareto::{ParetoReport, Row, TimingRow};
-use crate::plot::{Axis, Chart, Kind, Mark, Series, Shape, Size, Spot};
+use plot::{Axis, Chart, Kind, Mark, Series, Shape, Size, Spot};
 
 /// The least error that is drawn at its place. What is smaller stands at the foot with its value.
 const LEAST_DRAWN: f64 = 1e-8;

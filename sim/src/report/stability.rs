@@ -13,7 +13,7 @@ use crate::analysis::stability::conditioning::{Condition, Conditioning};
 use crate::analysis::stability::edges::{Edge, EdgeReport};
 use crate::analysis::stability::reference::{Function, ReferenceReport};
 use crate::analysis::stability::seams::{SeamReport, SeamRow};
-use crate::plot::{Axis, Chart, Mark, PlotError, ReferenceLine, Series, svg_to_png};
+use plot::{Axis, Chart, Mark, PlotError, ReferenceLine, Series, svg_to_png};
 
 /// Pixels of a PNG for each unit of its SVG.
 const PNG_SCALE: f32 = 2.0;

@@ -10,9 +10,9 @@ use std::collections::BinaryHeap;
 
 use super::space::Rays;
 use super::tile;
-use bounds::interval::Interval;
 use crate::render::{meet, presented, ray};
 use crate::scene::{Light, Scene, Shape, Surface};
+use bounds::interval::Interval;
 
 /// Bounds end this near to an x that is presented.
 const NEAR: f64 = 1.0 / 16384.0;

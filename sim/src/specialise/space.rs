@@ -2,8 +2,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use bounds::interval::Interval;
 use crate::scene::{Image, Vector, View};
+use bounds::interval::Interval;
 
 /// Three intervals.
 #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 //! intervals.
 
 use super::space::{Rays, Space};
-use bounds::interval::Interval;
 use crate::scene::{Angle, Light, Origin, Shape, Vector};
+use bounds::interval::Interval;
 
 /// Where the rays of a tile meet a surface: the cosine between normal and viewer, and the rest a light needs.
 struct Met {

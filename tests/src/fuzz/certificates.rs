@@ -6,6 +6,10 @@
 
 use std::sync::atomic::AtomicU64;
 
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::check;
+use bounds::certify::claim::{ExponentClaim, Finding, Region};
+use bounds::certify::hardware::{HardwareClaim, Worst};
 use hw_model::config::Config;
 use hw_model::datapath::Status;
 use hw_model::design::Design;
@@ -16,10 +20,6 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use sim::analysis::approximation::{Region as Interval, approximation};
-use bounds::certify::certificate::{Certificate, Claim};
-use bounds::certify::check::check;
-use bounds::certify::claim::{ExponentClaim, Finding, Region};
-use bounds::certify::hardware::{HardwareClaim, Worst};
 use sim::render::Codes;
 use sim::scene::Image;
 use sim::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};

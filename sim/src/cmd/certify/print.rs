@@ -5,10 +5,10 @@ use std::io::Write;
 use hw_model::fit::Method;
 
 use super::super::table::{Cell, Format, Rows, digits};
+use crate::cmd::Out;
 use bounds::certify::certificate::Claim;
 use bounds::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Region};
 use bounds::certify::hardware::{HardwareClaim, HardwareRow, Overall, Worst};
-use crate::cmd::Out;
 
 /// More exponents than that are summed up in a table.
 const MOST_LISTED: usize = 24;

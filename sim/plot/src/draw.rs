@@ -1,9 +1,9 @@
-//! From a chart to SVG: with `spots.rs` the only file that knows the plotting crate.
+//! From a chart to SVG: with `legend.rs` and `spots.rs` the only file that knows the plotting crate.
 
 use std::sync::Arc;
 
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::{LegendEntry, LegendPosition, LegendShape, LinePlot, LineStyle, ScatterPlot};
+use kuva::plot::{LegendEntry, LegendPosition, LinePlot, LineStyle, ScatterPlot};
 use kuva::render::annotations::ReferenceLine as DrawnLine;
 use kuva::render::layout::{ComputedLayout, Layout, TickFormat};
 use kuva::render::plots::Plot;
@@ -12,11 +12,25 @@ use kuva::render::render_utils::generate_ticks_log;
 
 use super::axis::{Scale, tick_label};
 use super::chart::{Bounds, Chart, Mark, Series};
+use super::error::PlotError;
+use super::legend::{entry, plain, rule_entry};
 use super::reference::fits_on_line;
 use super::{spots, style, words};
 
+impl Chart {
+    /// The chart as SVG text. The same chart gives the same text.
+    ///
+    /// # Errors
+    /// When there is nothing to draw, a coordinate is not finite, or an axis cannot show it.
+    pub fn to_svg(&self) -> Result<String, PlotError> {
+        self.check_points()?;
+        let bounds = self.bounds()?;
+        Ok(svg(self, bounds))
+    }
+}
+
 /// Draws a chart whose points were checked and whose axes have these ends.
-pub(super) fn svg(chart: &Chart, bounds: Bounds) -> String {
+fn svg(chart: &Chart, bounds: Bounds) -> String {
     let plots: Vec<Plot> = chart.series.iter().enumerate().map(drawn).collect();
     let named = |(index, series)| entry(chart, index, series);
     let mut entries: Vec<LegendEntry> = chart.series.iter().enumerate().flat_map(named).collect();
@@ -141,61 +155,9 @@ fn drawn((index, series): (usize, &Series)) -> Plot {
         .into()
 }
 
-fn entry(chart: &Chart, index: usize, series: &Series) -> Vec<LegendEntry> {
-    if series.name.is_empty() {
-        return Vec::new();
-    }
-    let mark = series.visible_mark();
-    let shape = match mark {
-        Mark::Points => LegendShape::Circle,
-        _ => LegendShape::Line,
-    };
-    let dashes = style::legend_dashes(mark);
-    wrapped_entry(chart, &series.name, style::colour_of(index, mark), shape, dashes)
-}
-
-fn rule_entry(chart: &Chart, label: &str) -> Vec<LegendEntry> {
-    let dashes = Some(style::REFERENCE_DASHES);
-    wrapped_entry(chart, label, style::REFERENCE_COLOUR, LegendShape::Line, dashes)
-}
-
-/// A name too long for the width goes on in entries of its own, which have no sample. The backend
-/// then has one column, so that they stand below one another.
-pub(super) fn wrapped_entry(
-    chart: &Chart,
-    name: &str,
-    colour: &str,
-    shape: LegendShape,
-    dashes: Option<&str>,
-) -> Vec<LegendEntry> {
-    let lines = words::lines(&plain(name), style::SMALL_SIZE, style::legend_width(chart.size));
-    let first = LegendEntry {
-        label: String::new(),
-        color: colour.to_owned(),
-        shape,
-        dasharray: dashes.map(str::to_owned),
-    };
-    let following = || LegendEntry {
-        label: String::new(),
-        color: "none".to_owned(),
-        shape: LegendShape::Line,
-        dasharray: None,
-    };
-    std::iter::once(first)
-        .chain(std::iter::repeat_with(following))
-        .zip(lines)
-        .map(|(entry, label)| LegendEntry { label, ..entry })
-        .collect()
-}
-
 /// Text broken to a length. The backend breaks it at these ends of line and nowhere else.
 fn broken(text: &str, size: u32, length: f64) -> String {
     words::lines(&plain(text), size, length).join("\n")
-}
-
-/// The backend takes a pair of dollar signs for a formula; here they are dollar signs.
-fn plain(text: &str) -> String {
-    text.replace('$', "\\$")
 }
 
 /// Names the clip path after the picture's own content. The backend numbers its clip paths through

@@ -18,7 +18,7 @@ pub enum Shape {
 pub struct Spot {
     /// Its coordinates.
     pub at: (f64, f64),
-    /// The place of its kind in [`Chart::kinds`](super::Chart::kinds).
+    /// The place of its kind in [`Chart::kinds`](crate::Chart::kinds).
     pub kind: usize,
     /// Filled, or an outline.
     pub filled: bool,

@@ -6,14 +6,14 @@ use svg::node::element::{Description, Group, Polygon, Polyline, Rectangle, Text,
 /// The bundled font first, as in the plots.
 const FONT: &str = "'DejaVu Sans', Verdana, sans-serif";
 /// Free space around a picture.
-pub(crate) const MARGIN: f64 = 12.0;
+pub const MARGIN: f64 = 12.0;
 
 /// A place, in SVG units, y downwards.
-pub(crate) type Point = (f64, f64);
+pub type Point = (f64, f64);
 
 /// Which part of a text stands at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Anchor {
+pub enum Anchor {
     /// Its beginning.
     Start,
     /// Its middle.
@@ -24,42 +24,49 @@ pub(crate) enum Anchor {
 
 /// Colours, chosen from those of Okabe and Ito and their tints, which people with any common colour
 /// vision deficiency can tell apart. Nothing is said by colour alone.
-pub(crate) mod colour {
+pub mod colour {
     /// Letters and outlines.
-    pub(crate) const INK: &str = "#1a1a1a";
+    pub const INK: &str = "#1a1a1a";
     /// Words that stand back.
-    pub(crate) const QUIET: &str = "#555555";
+    pub const QUIET: &str = "#555555";
     /// Grid lines, and wires that carry nothing.
-    pub(crate) const FAINT: &str = "#c4c4c4";
+    pub const FAINT: &str = "#c4c4c4";
     /// Paper.
-    pub(crate) const PAPER: &str = "#ffffff";
+    pub const PAPER: &str = "#ffffff";
     /// The polynomial.
-    pub(crate) const BLUE: &str = "#d6e9f5";
+    pub const BLUE: &str = "#d6e9f5";
     /// The divider.
-    pub(crate) const ORANGE: &str = "#fbe6c5";
+    pub const ORANGE: &str = "#fbe6c5";
     /// Memory.
-    pub(crate) const GREEN: &str = "#d3efe6";
+    pub const GREEN: &str = "#d3efe6";
     /// What belongs to both parts.
-    pub(crate) const GREY: &str = "#ececec";
+    pub const GREY: &str = "#ececec";
     /// Cycles to look at.
-    pub(crate) const SHADE: &str = "#fdf3d8";
+    pub const SHADE: &str = "#fdf3d8";
     /// Registers.
-    pub(crate) const REGISTER: &str = "#0072b2";
+    pub const REGISTER: &str = "#0072b2";
 }
 
 /// A picture under way.
-pub(crate) struct Canvas {
+pub struct Canvas {
     group: Group,
+}
+
+impl Default for Canvas {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl Canvas {
     /// An empty picture.
-    pub(crate) fn new() -> Self {
+    #[must_use]
+    pub fn new() -> Self {
         Self { group: Group::new().set("font-family", FONT) }
     }
 
     /// A filled box with an outline.
-    pub(crate) fn rectangle(&mut self, (x, y): Point, (width, height): Point, fill: &str) {
+    pub fn rectangle(&mut self, (x, y): Point, (width, height): Point, fill: &str) {
         let shape = Self::area((x, y), (width, height), fill)
             .set("stroke", colour::INK)
             .set("stroke-width", 1);
@@ -67,7 +74,7 @@ impl Canvas {
     }
 
     /// A filled box without an outline.
-    pub(crate) fn block(&mut self, place: Point, size: Point, fill: &str) {
+    pub fn block(&mut self, place: Point, size: Point, fill: &str) {
         self.add(Self::area(place, size, fill));
     }
 
@@ -81,7 +88,7 @@ impl Canvas {
     }
 
     /// A filled shape with an outline.
-    pub(crate) fn polygon(&mut self, points: &[Point], fill: &str) {
+    pub fn polygon(&mut self, points: &[Point], fill: &str) {
         let shape = Polygon::new()
             .set("points", listed(points))
             .set("fill", fill)
@@ -91,12 +98,12 @@ impl Canvas {
     }
 
     /// A line through these places.
-    pub(crate) fn line(&mut self, points: &[Point], stroke: &str, width: f64) {
+    pub fn line(&mut self, points: &[Point], stroke: &str, width: f64) {
         self.add(Self::stroke(points, stroke, width));
     }
 
     /// A broken line through these places.
-    pub(crate) fn dashes(&mut self, points: &[Point], stroke: &str) {
+    pub fn dashes(&mut self, points: &[Point], stroke: &str) {
         self.add(Self::stroke(points, stroke, 1.0).set("stroke-dasharray", "3 3"));
     }
 
@@ -109,7 +116,7 @@ impl Canvas {
     }
 
     /// A wire with an arrow head at its end.
-    pub(crate) fn arrow(&mut self, points: &[Point]) {
+    pub fn arrow(&mut self, points: &[Point]) {
         const LENGTH: f64 = 8.0;
         const HALF: f64 = 3.5;
         let [.., (from_x, from_y), (x, y)] = *points else { return };
@@ -127,12 +134,12 @@ impl Canvas {
     }
 
     /// A word, its baseline at this height.
-    pub(crate) fn text(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
+    pub fn text(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
         self.words((x, y), words, anchor, size, colour::INK);
     }
 
     /// A word that stands back.
-    pub(crate) fn quiet(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
+    pub fn quiet(&mut self, (x, y): Point, words: &str, anchor: Anchor, size: f64) {
         self.words((x, y), words, anchor, size, colour::QUIET);
     }
 
@@ -156,7 +163,8 @@ impl Canvas {
     }
 
     /// The picture as text: on white, with a margin; title and description for those who listen.
-    pub(crate) fn finish(self, (width, height): Point, title: &str, description: &str) -> String {
+    #[must_use]
+    pub fn finish(self, (width, height): Point, title: &str, description: &str) -> String {
         let (wide, high) = (width + 2.0 * MARGIN, height + 2.0 * MARGIN);
         let document = Document::new()
             .set("viewBox", format!("0 0 {wide} {high}"))
@@ -172,7 +180,8 @@ impl Canvas {
 }
 
 /// The corners of a wire on its way up that hops over another at this place.
-pub(crate) fn hop((x, y): Point) -> Vec<Point> {
+#[must_use]
+pub fn hop((x, y): Point) -> Vec<Point> {
     const RADIUS: f64 = 6.0;
     const CORNERS: u32 = 8;
     let corner = |index| {

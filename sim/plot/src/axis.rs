@@ -1,6 +1,6 @@
 //! Axes: scale, range, and the words under the ticks.
 
-use super::PlotError;
+use super::error::PlotError;
 
 /// The least value a logarithmic axis shows; far below any error worth drawing.
 pub(super) const LEAST_LOGARITHMIC: f64 = 1e-10;

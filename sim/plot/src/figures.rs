@@ -1,7 +1,7 @@
 //! The figures of the paper, as functions of plain data.
 
-use super::axis::LEAST_LOGARITHMIC;
-use super::{Axis, Chart, Mark, ReferenceLine, Scale, Series};
+use super::axis::{Axis, LEAST_LOGARITHMIC, Scale};
+use super::chart::{Chart, Mark, ReferenceLine, Series};
 
 /// A named curve.
 #[derive(Debug, Clone, PartialEq)]

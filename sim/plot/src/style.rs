@@ -4,7 +4,7 @@
 //! text stands at about 6 pt. The colours are those of Okabe and Ito, which people with any common colour
 //! vision deficiency can tell apart; their yellow is left out, as it cannot be seen on white.
 
-use super::{Mark, Size};
+use super::chart::{Mark, Size};
 
 /// Width of a picture, in SVG units, and height of the drawing area between the axes; title and legend
 /// come on top of it.

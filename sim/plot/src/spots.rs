@@ -1,4 +1,4 @@
-//! Draws points with names: with `draw.rs` the only file that knows the plotting crate.
+//! Draws points with names: with `draw.rs` and `legend.rs` the only file that knows the plotting crate.
 
 use kuva::plot::{LegendEntry, LegendShape, MarkerShape};
 use kuva::render::color::Color;
@@ -6,9 +6,9 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 use super::chart::Chart;
-use super::draw::wrapped_entry;
+use super::legend::wrapped_entry;
 use super::placement::{Frame, ONE, Place, Wanted, distance, place};
-use super::spot::{Shape, Spot};
+use super::spot::{Kind, Shape, Spot};
 use super::{style, words};
 
 /// Half the side of a point.
@@ -20,7 +20,7 @@ const DOT: f64 = 1.2;
 
 /// The legend's entries for the kinds of points.
 pub(super) fn entries(chart: &Chart) -> Vec<LegendEntry> {
-    let entry = |kind: &super::Kind| {
+    let entry = |kind: &Kind| {
         let shape = LegendShape::Marker(match kind.shape {
             Shape::Circle => MarkerShape::Circle,
             Shape::Square => MarkerShape::Square,

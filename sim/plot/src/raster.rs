@@ -1,14 +1,14 @@
-//! From SVG to PNG: the only file that knows the renderer.
+//! From SVG to PNG and pixels: with `texts.rs` the only file that knows the renderer.
 
 use std::sync::{Arc, LazyLock};
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, Options, Tree, fontdb};
 
-use super::PlotError;
+use super::error::PlotError;
 
 /// The one font there is: a picture must not depend on what the machine has installed.
-static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
+static FONT: &[u8] = include_bytes!("../assets/DejaVuSans.ttf");
 const FONT_NAME: &str = "DejaVu Sans";
 
 /// The longest side of a PNG, in pixels.
@@ -35,7 +35,7 @@ pub fn svg_to_png(svg: &str, scale: f32) -> Result<Vec<u8>, PlotError> {
 ///
 /// # Errors
 /// As [`svg_to_png`].
-pub(crate) fn svg_to_pixels(svg: &str) -> Result<(u32, u32, Vec<[u8; 3]>), PlotError> {
+pub fn svg_to_pixels(svg: &str) -> Result<(u32, u32, Vec<[u8; 3]>), PlotError> {
     let pixels = drawn(svg, 1.0)?;
     let colours = pixels.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
     Ok((pixels.width(), pixels.height(), colours.collect()))
@@ -57,7 +57,7 @@ fn drawn(svg: &str, scale: f32) -> Result<Pixmap, PlotError> {
 }
 
 /// Reads an SVG with the bundled font and no other.
-pub(crate) fn parse(svg: &str) -> Result<Tree, PlotError> {
+pub(super) fn parse(svg: &str) -> Result<Tree, PlotError> {
     let options = Options {
         fontdb: Arc::clone(&FONTS),
         font_family: FONT_NAME.to_owned(),

@@ -1,7 +1,8 @@
 //! What a chart holds, whatever draws it.
 
+use super::axis::Axis;
+use super::error::PlotError;
 use super::spot::{Kind, Spot};
-use super::{Axis, PlotError};
 
 /// How large a picture is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -135,16 +136,6 @@ impl Chart {
         }
     }
 
-    /// The chart as SVG text. The same chart gives the same text.
-    ///
-    /// # Errors
-    /// When there is nothing to draw, a coordinate is not finite, or an axis cannot show it.
-    pub fn to_svg(&self) -> Result<String, PlotError> {
-        self.check_points()?;
-        let bounds = self.bounds()?;
-        Ok(super::draw::svg(self, bounds))
-    }
-
     /// Every point of every series, and those with names.
     pub(super) fn points(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
         let named = self.spots.iter().map(|spot| spot.at);
@@ -162,7 +153,8 @@ impl Chart {
         })
     }
 
-    fn check_points(&self) -> Result<(), PlotError> {
+    /// Every coordinate is a number, and there is something to draw.
+    pub(super) fn check_points(&self) -> Result<(), PlotError> {
         if self.series.is_empty() {
             return Err(PlotError::NoSeries { title: self.title.clone() });
         }
