@@ -19,4 +19,5 @@ pub mod quantise;
 pub mod rom;
 pub mod rounding;
 pub mod rtl;
+pub mod stated;
 pub mod steps;

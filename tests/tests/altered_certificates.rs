@@ -13,8 +13,8 @@ use hw_model::design::Design;
 use hw_model::quantise::real;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sim::scene::{Scene, Transfer};
-use sim::specialise::{
+use scenes::scene::{Scene, Transfer};
+use scenes::specialise::{
     Asked, Certificate, Display, Proved, Refused, certify, check, demands, derive, reduce, rows,
 };
 use vectors::checksum::checksum;

@@ -1,8 +1,8 @@
 //! The measured error maxima against 20 digits from 60-digit arithmetic.
 
+use analysis::approximation::{Peak, Region, approximation};
 use blysk_tests::reference::{self, Row};
 use hw_model::fit::{Fit, Levels, Method, fit};
-use sim::analysis::approximation::{Peak, Region, approximation};
 
 /// Relative: ten significant digits are promised.
 const DIGITS: f64 = 1e-10;

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::approximation::{self, approximation};
+use analysis::hardware_claim::certify_hardware;
 use blysk_tests::cli::SMALL;
 use blysk_tests::reference;
 use bounds::certify::certificate::{Certificate, Claim};
@@ -16,8 +18,6 @@ use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::fit::{Levels, Method, fit};
 use proptest::prelude::*;
-use sim::analysis::approximation::{self, approximation};
-use sim::analysis::hardware_claim::certify_hardware;
 
 fn exponents() -> impl Strategy<Value = f64> {
     prop_oneof![(0.0_f64..12.0).prop_map(|e| 10.0_f64.powf(e)), (1_u32..=1024).prop_map(f64::from)]

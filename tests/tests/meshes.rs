@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use sim::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
+use scenes::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
 
 fn flat(text: &str) -> Vec<Triangle> {
     triangles(text, Normals::Flat).unwrap_or_else(|error| panic!("{text}{error}"))

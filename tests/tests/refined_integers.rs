@@ -3,13 +3,13 @@
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::refine::{Found, Options, Range, Refined, refine};
 use hw_model::config::Config;
 use hw_model::design::{Design, Revision};
 use hw_model::highlight::phong;
 use hw_model::steps::CoefficientSteps;
 use naive::comparison::{self, Comparison};
 use serde_json::json;
-use sim::analysis::refine::{Found, Options, Range, Refined, refine};
 
 const OPTIONS: Options = Options { range: Range::Fitted, reach: 8 };
 

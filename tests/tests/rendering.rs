@@ -9,11 +9,11 @@ use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::presets;
 use proptest::prelude::*;
-use sim::render::{
+use scenes::render::{
     Bvh, Codes, Part, Pipeline, Presented, Ray, Samples, SurfacePixel, Which, difference, meet,
     presented, reference, samples, shade,
 };
-use sim::scene::{
+use scenes::scene::{
     Angle, Knot, Light, Normals, Origin, Scene, Shape, Surface, Triangle, Vector, schema, triangles,
 };
 use vectors::progress::Progress;

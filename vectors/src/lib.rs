@@ -14,6 +14,7 @@ pub mod answers;
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod evaluate;
 pub mod fault_table;
 pub mod faults;
 pub mod kind;

@@ -7,13 +7,13 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
+use analysis::error_report::{Options, error_report};
 use blysk_tests::bench::verilator::{self, Verilated};
 use blysk_tests::bench::{Pattern, Rates, Timed, engines, files, significant};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::presets;
-use sim::analysis::error_report::{Options, error_report};
 
 /// The presets that are timed.
 const PRESETS: [&str; 3] = ["compact", "precise", "paper"];

@@ -6,6 +6,7 @@
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::approximation::{Region as Interval, approximation};
 use bounds::certify::certificate::{Certificate, Claim};
 use bounds::certify::check::check;
 use bounds::certify::claim::{ExponentClaim, Finding, Region};
@@ -16,13 +17,12 @@ use hw_model::design::Design;
 use hw_model::fit::{Levels, fit};
 use hw_model::highlight::phong;
 use hw_model::quantise::real;
+use scenes::render::Codes;
+use scenes::scene::Image;
+use scenes::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use sim::analysis::approximation::{Region as Interval, approximation};
-use sim::render::Codes;
-use sim::scene::Image;
-use sim::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};
 use vectors::checksum::checksum;
 
 use super::{Outcome, Place};

@@ -2,16 +2,16 @@
 
 use std::io;
 
+use analysis::pareto::synthesis;
+use analysis::report::pareto as tables;
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
-use sim::analysis::pareto::synthesis;
-use sim::render::{Pipeline, Which, samples};
-use sim::report::pareto as tables;
-use sim::scene::{Normals, Scene, triangles};
-use sim::specialise::demands;
+use scenes::render::{Pipeline, Which, samples};
+use scenes::scene::{Normals, Scene, triangles};
+use scenes::specialise::demands;
 use vectors::Strategy;
 
 use super::{Outcome, Place};

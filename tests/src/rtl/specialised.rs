@@ -4,8 +4,8 @@ use std::sync::atomic::AtomicU64;
 
 use hw_model::design::Design;
 use hw_model::presets;
-use sim::scene::Scene;
-use sim::specialise::{Display, demands, reduce, rows};
+use scenes::scene::Scene;
+use scenes::specialise::{Display, demands, reduce, rows};
 
 use super::{Failure, simulators};
 

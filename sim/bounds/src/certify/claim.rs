@@ -65,6 +65,14 @@ pub struct Witness {
     pub sigma: f64,
 }
 
+impl Witness {
+    /// x^n = e^−σ there, to the nearest f64: to be shown, as no proof rests on it.
+    #[must_use]
+    pub fn level(&self) -> f64 {
+        core_math::exp(-self.sigma)
+    }
+}
+
 /// lower ≤ max |e| ≤ upper, with the proof of both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

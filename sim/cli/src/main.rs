@@ -1,0 +1,7 @@
+//! The `blysk` command.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::main()
+}
