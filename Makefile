@@ -91,7 +91,7 @@ peers: ## certified bounds and refined integers beside Sollya's, where that is i
 
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
-	$(CARGO) bench --package sim --bench throughput --locked
+	$(CARGO) bench --package analysis --bench throughput --locked
 
 pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
 	@mkdir -p target

@@ -2,6 +2,7 @@
 //! against precision, the claims of \[Rom\], stiff and extreme cases; and the files and figures that say it.
 
 pub mod approximation;
+mod budget;
 pub mod claims;
 pub mod error_report;
 pub mod hardware_claim;

@@ -6,6 +6,7 @@
 mod block;
 mod divider;
 mod examples;
+mod facts;
 mod flip_flops;
 mod layout;
 mod lines;

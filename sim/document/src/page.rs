@@ -5,7 +5,7 @@ use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::rtl::SOURCES;
 
-use super::registers::Facts;
+use super::facts::Facts;
 use super::scenario::Scenario;
 use super::table::Table;
 use super::words::places;

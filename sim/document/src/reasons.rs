@@ -7,8 +7,8 @@ use hw_model::design::Share;
 use hw_model::format::QFormat;
 use hw_model::rom::FieldName;
 
+use super::facts::{Facts, Held, Known};
 use super::lines::rounding;
-use super::registers::{Facts, Held, Known};
 use super::words::{bits, places};
 
 /// What the reasons are taken from.

@@ -7,8 +7,8 @@ use fst_writer::{
     FstVarDirection, FstVarType, FstWriteError,
 };
 
-use super::Sink;
 use super::hierarchy::{Hierarchy, Scope};
+use super::sink::Sink;
 
 /// Changes are held in memory, by signal, until there are so many bytes of them; then they become a
 /// block of the file. Larger blocks are hardly smaller files.

@@ -9,6 +9,7 @@
 
 mod fst;
 mod hierarchy;
+mod sink;
 mod vcd;
 
 use std::io::{self, Seek, Write};
@@ -21,6 +22,7 @@ use vectors::rtl::{self, Names};
 
 use crate::run::Cycle;
 use hierarchy::Hierarchy;
+use sink::Sink;
 
 const HALF_PERIOD: u64 = 5;
 
@@ -53,18 +55,6 @@ impl WaveFormat {
 pub fn save_file(name: &str, datapath: &Datapath, dump: &Path) -> String {
     let dump = dump.file_name().and_then(|name| name.to_str());
     rtl::save_file(datapath, Names::Ranks, &hierarchy::top(name), dump)
-}
-
-/// A file of waves under way, whose header is written.
-trait Sink {
-    /// The changes from here on are at `time`, in ns, later than those before.
-    fn time(&mut self, time: u64) -> io::Result<()>;
-
-    /// A signal changes to these bits, from the highest down, each `b'0'`, `b'1'` or `b'x'`.
-    fn change(&mut self, signal: usize, bits: &[u8]) -> io::Result<()>;
-
-    /// Writes what is left, and flushes.
-    fn finish(self: Box<Self>) -> io::Result<()>;
 }
 
 /// The bits of a signal; `None` is unknown.

@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use vcd::{IdCode, TimescaleUnit, VarType, Writer};
 
-use super::Sink;
 use super::hierarchy::{Hierarchy, Scope};
+use super::sink::Sink;
 
 /// A VCD file under way.
 ///

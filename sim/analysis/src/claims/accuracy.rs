@@ -2,9 +2,9 @@
 
 use hw_model::fit::{Levels, Method, fit};
 
+use super::claim::{Claim, ClaimsError};
 use super::comparison::{Comparison, Sense};
 use super::proof::{self, Enclosed};
-use super::{Claim, ClaimsError};
 use crate::approximation::{ApproximationError, Region, approximation};
 
 /// An error below this is that of evaluating in f64: for n = 1, 2 and 3 the cubic is x^n itself.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::ClaimsError;
+use super::claim::ClaimsError;
 
 /// The greatest exponent that is looked at. What depends on h = 1/n has come to its limit there, to nine
 /// digits.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::boundary::{Boundary, GREATEST, boundary, examined};
-use super::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
 
 /// On which side of the limit a claim wants the number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, Mul};
 
-use super::{Claim, Evidence, Verdict, command};
+use super::claim::{Claim, Evidence, Verdict, command};
 
 /// Multiplications and additions done so far.
 #[derive(Debug, Default)]

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 use hw_model::fit::{Crossing, Levels, Method, crossing, fit};
 use hw_model::highlight::Power;
 
-use super::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
 
 /// Where formulas are tried. From n = 4 on no cubic is x^n itself, and up to 64 the printed formulas keep
 /// ten digits.

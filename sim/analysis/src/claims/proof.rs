@@ -6,8 +6,8 @@
 
 use hw_model::fit::{Levels, Method};
 
+use super::claim::{Claim, ClaimsError, Evidence, Verdict};
 use super::comparison::Comparison;
-use super::{Claim, ClaimsError, Evidence, Verdict};
 use bounds::certify::claim::{ExponentClaim, Region};
 use bounds::certify::search::{claim_every_exponent, claim_exponent};
 

@@ -5,7 +5,7 @@ use hw_model::highlight::Cubic;
 use rayon::prelude::*;
 
 use super::boundary::{GREATEST, examined};
-use super::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
 
 /// Steps of n in an interval of length 1 when fractional exponents are scanned.
 const STEPS: u32 = 1 << 12;

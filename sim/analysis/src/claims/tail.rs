@@ -3,8 +3,8 @@
 use hw_model::fit::{Levels, Method, crossing, fit};
 
 use super::boundary::GREATEST;
+use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
 use super::comparison::{Comparison, Sense};
-use super::{Claim, ClaimsError, Evidence, Verdict, command};
 use crate::approximation::{Region, approximation};
 
 /// A range of the tail with what is claimed for it.

@@ -1,11 +1,34 @@
 //! From good integers to ones that no neighbour beats.
 
-use super::Found;
+use serde::Serialize;
+
 use super::piece::{Judge, Piece, Worst};
 use super::propose::propose;
 
 /// Steps of a single coefficient that are looked at beyond the neighbours.
 const AXIS: i32 = 4;
+
+/// What was found for one segment of one row. Errors are fractions of full intensity.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Found {
+    /// The exponent.
+    pub n: f64,
+    /// 1, or 2.
+    pub segment: u32,
+    /// Representable x that were judged.
+    pub samples: u64,
+    /// The greatest error before.
+    pub before: f64,
+    /// The same with the integers that were found.
+    pub after: f64,
+    /// The x (bits in the input format) where.
+    pub x: i64,
+    /// The greatest error of the method with real coefficients at the same x: what no integers are better than
+    /// where the method is `minimax`, but for what rounding happens to mend.
+    pub method: f64,
+    /// The steps of c0, c1, c2, c3 from the rounded coefficients.
+    pub steps: [i32; 4],
+}
 
 /// The best integers that were found for a piece.
 pub fn search(piece: &Piece<'_>, reach: i32) -> Found {

@@ -16,12 +16,13 @@ mod piece;
 mod propose;
 
 use hw_model::config::Config;
-use hw_model::design::{Design, DesignError, Revision};
+use hw_model::design::{Design, DesignError};
 use hw_model::steps::CoefficientSteps;
 use rayon::prelude::*;
-use serde::Serialize;
 use vectors::limits::{Sweep, TooManyInputs};
 
+use crate::budget::within_its_bound;
+pub use descent::Found;
 use piece::Piece;
 pub use piece::Range;
 use vectors::progress::Progress;
@@ -35,28 +36,6 @@ pub struct Options {
     pub reach: i32,
 }
 
-/// What was found for one segment of one row. Errors are fractions of full intensity.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Found {
-    /// The exponent.
-    pub n: f64,
-    /// 1, or 2.
-    pub segment: u32,
-    /// Representable x that were judged.
-    pub samples: u64,
-    /// The greatest error before.
-    pub before: f64,
-    /// The same with the integers that were found.
-    pub after: f64,
-    /// The x (bits in the input format) where.
-    pub x: i64,
-    /// The greatest error of the method with real coefficients at the same x: what no integers are better than
-    /// where the method is `minimax`, but for what rounding happens to mend.
-    pub method: f64,
-    /// The steps of c0, c1, c2, c3 from the rounded coefficients.
-    pub steps: [i32; 4],
-}
-
 /// The whole search.
 #[derive(Debug, Clone)]
 pub struct Refined {
@@ -65,9 +44,6 @@ pub struct Refined {
     /// One for each segment that answers, in the order of the exponents.
     pub found: Vec<Found>,
 }
-
-/// A budget that keeps nobody from anything: the highest a configuration may have.
-pub(crate) const NO_BUDGET: f64 = 1e6;
 
 /// The number of x that all judging goes over, for a progress bar.
 ///
@@ -123,19 +99,6 @@ fn put(steps: &mut Vec<CoefficientSteps>, found: &[Found]) {
     }
     steps.retain(|row| !row.is_none());
     steps.sort_by(|a, b| a.n.total_cmp(&b.n));
-}
-
-/// The revised design, its budget raised to what it proves where that is more than before.
-///
-/// # Errors
-/// As [`Design::new`].
-pub(crate) fn within_its_bound(design: &Design, revision: Revision) -> Result<Design, DesignError> {
-    let unbound = design.revised(Revision { error_budget_ulp: NO_BUDGET, ..revision.clone() })?;
-    let needed = unbound.bounds().iter().map(|bound| bound.total()).fold(0.0, f64::max);
-    // A thousandth up: it is written in decimal.
-    let needed = (needed * 1000.0 + 1e-6).ceil() / 1000.0;
-    let error_budget_ulp = revision.error_budget_ulp.max(needed).min(NO_BUDGET);
-    unbound.revised(Revision { error_budget_ulp, ..revision })
 }
 
 impl Refined {

@@ -9,7 +9,7 @@ use hw_model::highlight::phong;
 use hw_model::rom::{FieldName, Place, Row};
 use hw_model::steps::CoefficientSteps;
 
-use super::NO_BUDGET;
+use crate::budget::NO_BUDGET;
 
 /// Samples that go through the data path together.
 const BLOCK: usize = 4096;

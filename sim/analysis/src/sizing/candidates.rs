@@ -7,7 +7,7 @@ use hw_model::fit::{FitError, Levels, Method, crossing};
 use hw_model::highlight::phong;
 use hw_model::rounding::Rounding;
 
-use super::{Over, Request};
+use super::request::{Over, Request};
 
 /// Points of each segment at which the real functions are looked at.
 const POINTS: i64 = 256;

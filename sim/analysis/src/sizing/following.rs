@@ -7,7 +7,7 @@ use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::rom::FieldName;
 
-use super::SizingError;
+use super::error::SizingError;
 use super::witness::{Breaks, Fewer, Witness, a_bit_less, seen_at};
 use hw_model::stated::field;
 

@@ -10,7 +10,7 @@ use hw_model::design::Design;
 use hw_model::highlight::phong;
 use rayon::prelude::*;
 
-use super::super::sweep::estimate;
+use crate::sweep::estimate;
 use vectors::progress::Progress;
 
 /// x that make one piece of work for a thread.

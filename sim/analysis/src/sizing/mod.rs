@@ -9,9 +9,11 @@
 //! The error of the result is not proved register by register but measured at every x of the range.
 
 mod candidates;
+mod error;
 mod following;
 mod judge;
 mod narrow;
+mod request;
 mod witness;
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -19,56 +21,19 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use hw_model::budget::BudgetError;
 use hw_model::config::Config;
 use hw_model::design::{Design, DesignError, Revision};
-use hw_model::exponents::Exponents;
-use hw_model::fit::FitError;
-use hw_model::format::QFormat;
 use hw_model::rounding::Rounding;
 use rayon::prelude::*;
-use thiserror::Error;
 
-use super::refine::within_its_bound;
+use crate::budget::{NO_BUDGET, within_its_bound};
 pub use candidates::RealError;
+pub use error::SizingError;
 use hw_model::stated::{Hardware, NAMES, of_design, stated};
 pub use judge::Place;
 use judge::{Judge, greatest};
 use narrow::State;
+pub use request::{Over, Request};
 use vectors::progress::Progress;
 pub use witness::{Breaks, Fewer, Witness};
-
-/// Over which x the error is to be kept.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Over {
-    /// All of [0, 1].
-    All,
-    /// Where x^n is at least this, above 0 and below 1.
-    Level(f64),
-}
-
-impl Over {
-    const fn level(self) -> Option<f64> {
-        match self {
-            Self::All => None,
-            Self::Level(level) => Some(level),
-        }
-    }
-}
-
-/// What is to be built.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Request {
-    /// The ROM's exponents.
-    pub exponents: Exponents,
-    /// Format of x.
-    pub input: QFormat,
-    /// Format of the intensity.
-    pub output: QFormat,
-    /// The greatest error allowed, as a fraction of full intensity.
-    pub error: f64,
-    /// Over which x.
-    pub over: Over,
-    /// How many designs are narrowed.
-    pub finalists: usize,
-}
 
 /// What became of a candidate.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,58 +74,6 @@ pub struct Sized {
     pub ranking: Vec<Considered>,
     /// For every register.
     pub witnesses: Vec<Witness>,
-}
-
-/// Why there is no result.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SizingError {
-    /// A fit.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// A design.
-    #[error(transparent)]
-    Design(#[from] DesignError),
-    /// Nothing is near enough.
-    #[error(
-        "nothing keeps an error of {error}: the nearest, {nearest}, has {real:.6} at n = {n} {why}; allow more, a \
-         smaller range, or a wider output"
-    )]
-    Nothing {
-        /// What was asked for.
-        error: f64,
-        /// The nearest candidate.
-        nearest: String,
-        /// Its real error.
-        real: f64,
-        /// Where.
-        n: f64,
-        /// What kept it from being built.
-        why: String,
-    },
-    /// Nothing was asked.
-    #[error(
-        "no exponent has an x in the range: where x^n is that much, x is beyond {input}; ask for a larger range, or an \
-         input with more bits"
-    )]
-    Empty {
-        /// The format of x.
-        input: QFormat,
-    },
-    /// A register could lose a bit.
-    #[error("register {register} could have a bit less; please report the command")]
-    Spare {
-        /// The register.
-        register: &'static str,
-    },
-    /// A witness that does not say what it was called for.
-    #[error("the witness of register {register} at n = {n} fails; please report the command")]
-    Silent {
-        /// The register.
-        register: &'static str,
-        /// The exponent.
-        n: f64,
-    },
 }
 
 /// The part of the error that the proved widths may use: real errors are seen at points only.
@@ -259,7 +172,7 @@ fn prove(request: &Request, config: &Config, real: RealError) -> Vec<(Considered
     if real.whole > request.error || left <= 0.0 {
         return vec![(considered(None, Verdict::TooFar), None)];
     }
-    let error_budget_ulp = (PROVED * left / request.output.ulp()).min(super::refine::NO_BUDGET);
+    let error_budget_ulp = (PROVED * left / request.output.ulp()).min(NO_BUDGET);
     let mut first: Option<Design> = None;
     let mut all = Vec::new();
     for rounding in Rounding::ALL {

@@ -9,8 +9,8 @@
 use hw_model::design::{Design, DesignError, Revision};
 use hw_model::format::QFormat;
 
-use super::super::refine::NO_BUDGET;
 use super::judge::{Judge, Place, greatest};
+use crate::budget::NO_BUDGET;
 use hw_model::stated::{
     Each, Hardware, NAMES, ROOMS, loosened, of_stated, stated, taken, tight, with_fraction,
 };

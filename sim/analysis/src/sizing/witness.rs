@@ -6,7 +6,7 @@ use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::highlight::phong;
 
-use super::SizingError;
+use super::error::SizingError;
 use super::judge::{Judge, greatest};
 use super::narrow::{State, loose};
 use hw_model::stated::{Each, Hardware, NAMES, holds, taken, with_fraction, with_integer_less};

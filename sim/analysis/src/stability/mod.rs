@@ -10,6 +10,7 @@
 //!
 //! "Stiff" means large n: the slope at x = 1 is n, power-form coefficients grow as n², and p → 0.
 
+mod cases;
 pub mod coefficients;
 pub mod conditioning;
 pub mod edges;

@@ -10,7 +10,7 @@ use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
 use serde::Serialize;
 
-use super::edges::cases;
+use super::cases::cases;
 
 /// A ROM field at an edge of its format.
 #[derive(Debug, Clone, PartialEq, Serialize)]

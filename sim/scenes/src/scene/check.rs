@@ -6,11 +6,12 @@ use std::io;
 use hw_model::exponents::MAX_EXPONENT;
 use hw_model::names;
 
+use super::checked::{Light, Material, Origin, Scene, Shape, Surface, View};
 use super::description::{self as said, Description, Geometry, Triple};
 use super::error::{MeshError, SceneError};
+use super::mesh::{self, Triangle};
 use super::obj::{GREATEST_COORDINATE, MOST_TRIANGLES};
 use super::vector::Vector;
-use super::{Light, Material, Origin, Scene, Shape, Surface, View, mesh};
 
 /// Pixels of the longest side of a picture.
 pub const GREATEST_SIDE: u32 = 16_384;
@@ -208,7 +209,7 @@ fn mesh_surfaces(
     path: &str,
     file: &said::MeshFile,
     read: &mut dyn FnMut(&str) -> io::Result<String>,
-) -> Checked<Vec<super::Triangle>> {
+) -> Checked<Vec<Triangle>> {
     let position = place(&format!("{path}.position"), file.position)?;
     let scale = size(&format!("{path}.scale"), file.scale)?;
     let refused =

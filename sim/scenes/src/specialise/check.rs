@@ -15,20 +15,19 @@
 
 use std::sync::atomic::AtomicU64;
 
-use hw_model::config::{Config, ConfigError, StatedWidths};
-use hw_model::design::{Design, DesignError};
+use hw_model::config::{Config, StatedWidths};
+use hw_model::design::Design;
 use hw_model::format::QFormat;
-use thiserror::Error;
-use vectors::limits::TooManyInputs;
 
-use super::certificate::{Certificate, Display, Proved};
+use super::certificate::{Certificate, Display, Part, Proved};
 use super::codes::pixels_outside;
 use super::compare::certify;
 use super::demand::{Demand, demands};
 use super::derive::{Row, kept, rows};
+use super::refused::Refused;
 use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
-use bounds::seal::{BrokenSeal, Unreadable, identity};
+use bounds::seal::{BrokenSeal, identity};
 use vectors::progress::Progress;
 
 /// What the user says the certificate must be about.
@@ -40,65 +39,6 @@ pub struct Asked<'a> {
     pub source: Option<&'a Config>,
     /// The most display codes that answers may differ by.
     pub codes: Option<u16>,
-}
-
-/// Why a certificate does not hold.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum Refused {
-    /// It cannot be read.
-    #[error(transparent)]
-    Unreadable(#[from] Unreadable),
-    /// It is not as it was sealed.
-    #[error(transparent)]
-    Seal(#[from] BrokenSeal),
-    /// One of the configurations.
-    #[error("configuration: {0}")]
-    Config(#[from] ConfigError),
-    /// One of the configurations has no hardware.
-    #[error("configuration: {0}")]
-    Design(#[from] DesignError),
-    /// More x than are gone through.
-    #[error(transparent)]
-    TooMany(#[from] TooManyInputs),
-    /// An exponent that one of the two has not, or another domain than the configuration's.
-    #[error("parts[{index}], n = {n}: {problem}")]
-    Part {
-        /// Its place.
-        index: usize,
-        /// n.
-        n: f64,
-        /// What is wrong.
-        problem: String,
-    },
-    /// It is about something else than what the user asked about.
-    #[error("{field}: the certificate is about {said}, and {asked} was asked about")]
-    Asked {
-        /// Which field.
-        field: &'static str,
-        /// What stands there.
-        said: String,
-        /// What the user gave.
-        asked: String,
-    },
-    /// A field says what cannot be.
-    #[error("{field}: {problem}")]
-    Field {
-        /// Which field.
-        field: String,
-        /// What is wrong, and what would be right.
-        problem: String,
-    },
-    /// Going through every x again finds something else.
-    #[error("{field}: the certificate says {said}, and every x says {found}")]
-    Found {
-        /// Which field.
-        field: String,
-        /// What stands there.
-        said: String,
-        /// What is so.
-        found: String,
-    },
 }
 
 /// What holds, and what was not looked at.
@@ -226,7 +166,7 @@ fn own_rows(
     source: &Design,
     specialised: &Design,
 ) -> Result<Vec<Row>, Refused> {
-    let demand = |(index, part): (usize, &super::Part)| match part.least {
+    let demand = |(index, part): (usize, &Part)| match part.least {
         least if (0.0..=1.0).contains(&least) => {
             Ok(Demand { exponent: part.n, least, greatest: 1.0, mesh: false })
         }

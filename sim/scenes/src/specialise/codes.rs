@@ -9,10 +9,10 @@ use hw_model::design::Design;
 use hw_model::format::QFormat;
 
 use super::certificate::{Display, Part, Proved};
-use super::check::Refused;
 use super::compare::certify;
 use super::demand::Demand;
 use super::derive::{Row, SpecialiseError, derive, kept};
+use super::refused::Refused;
 use crate::render::Samples;
 use crate::scene::Scene;
 use vectors::progress::Progress;

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use vectors::limits::{Sweep, TooManyInputs};
 
 use super::certificate::{Display, Part, Proved};
-use super::check::Refused;
 use super::derive::Row;
+use super::refused::Refused;
 use crate::render::Codes;
 use crate::scene::{DISPLAY_BITS, Image};
 use vectors::progress::Progress;

@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn the_close_up_is_bounded_tightly() {
-        let text = include_str!("../../../docs/scenes/close_up.json");
+        let text = include_str!("../../../../docs/scenes/close_up.json");
         let scene = Scene::from_json(text, &mut |_| Ok(String::new())).unwrap();
         let [demand] = demands(&scene)[..] else { panic!("one exponent") };
         // What docs/SCENES.md says of its corners: at most 6.92 degrees.

@@ -14,7 +14,7 @@ use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 use thiserror::Error;
 
-use super::Demand;
+use super::demand::Demand;
 use hw_model::stated::{of_stated, stated, taken, tight};
 
 /// Why a scene has no hardware of its own.

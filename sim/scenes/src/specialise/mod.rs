@@ -17,13 +17,15 @@ mod compare;
 mod demand;
 mod derive;
 mod figures;
+mod refused;
 mod space;
 mod tile;
 
 pub use certificate::{Certificate, Display, Part, Proved};
-pub use check::{Asked, Held, Refused, check, inputs};
+pub use check::{Asked, Held, check, inputs};
 pub use codes::{ReduceError, pixels_outside, reduce};
 pub use compare::{certify, points};
 pub use demand::{Demand, demands};
 pub use derive::{Row, SpecialiseError, derive, is_guarded, rows};
 pub use figures::{LeftOut, left_out};
+pub use refused::Refused;
