@@ -8,7 +8,7 @@ pub mod error_report;
 pub mod hardware_claim;
 pub mod hardware_cost;
 pub mod pareto;
-pub mod reference_product;
+mod reference_product;
 pub mod refine;
 pub mod report;
 pub mod sizing;

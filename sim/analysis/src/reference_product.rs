@@ -23,14 +23,14 @@ use hw_model::highlight::phong;
 use multiversion::multiversion;
 
 /// The greatest exponent that is reached by multiplying.
-pub const GREATEST: f64 = 4096.0;
+pub(crate) const GREATEST: f64 = 4096.0;
 
 /// 2⁻⁵⁰⁰: powers below it are taken for 0.
 const VANISHED: f64 = f64::from_bits((1023 - 500) << 52);
 
 /// The powers of a block of x.
 #[derive(Debug, Clone, Default)]
-pub struct ReferenceProduct {
+pub(crate) struct ReferenceProduct {
     xs: Vec<f64>,
     exponent: f64,
     high: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct ReferenceProduct {
 
 impl ReferenceProduct {
     /// Begins with x^0 of these x, each in [0, 1].
-    pub fn start(&mut self, xs: &[f64]) {
+    pub(crate) fn start(&mut self, xs: &[f64]) {
         self.xs.clear();
         self.xs.extend_from_slice(xs);
         self.exponent = 0.0;
@@ -52,7 +52,7 @@ impl ReferenceProduct {
     }
 
     /// x^n of every x as h and l, whose sum it is. Exponents are asked for in rising order.
-    pub fn at(&mut self, exponent: f64) -> (&[f64], &[f64]) {
+    pub(crate) fn at(&mut self, exponent: f64) -> (&[f64], &[f64]) {
         let reached = exponent.fract() == 0.0 && (self.exponent..=GREATEST).contains(&exponent);
         if !reached {
             let (high, low) = &mut self.direct;

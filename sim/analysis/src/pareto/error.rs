@@ -92,7 +92,7 @@ pub struct ContenderErrors {
 
 /// Measures everybody. `epicentres` are the least x of each exponent's epicentre, in bits.
 #[must_use]
-pub fn errors(
+pub(super) fn errors(
     contenders: &[Contender],
     inputs: &Inputs,
     epicentres: &[i64],

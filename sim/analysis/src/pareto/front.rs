@@ -3,7 +3,7 @@
 /// True when `a` is nowhere worse than `b` and somewhere better. Points that are equal do not dominate
 /// one another, and a coordinate that is not a number is neither better nor worse.
 #[must_use]
-pub fn dominates<const AXES: usize>(a: &[f64; AXES], b: &[f64; AXES]) -> bool {
+pub(crate) fn dominates<const AXES: usize>(a: &[f64; AXES], b: &[f64; AXES]) -> bool {
     a.iter().zip(b).all(|(a, b)| a <= b) && a.iter().zip(b).any(|(a, b)| a < b)
 }
 
@@ -13,7 +13,7 @@ pub fn dominates<const AXES: usize>(a: &[f64; AXES], b: &[f64; AXES]) -> bool {
 /// is least, the first of them where there are several. (There always is one: domination is transitive
 /// and never goes round, so that climbing from dominator to dominator ends.)
 #[must_use]
-pub fn dominators<const AXES: usize>(points: &[[f64; AXES]]) -> Vec<Option<usize>> {
+pub(crate) fn dominators<const AXES: usize>(points: &[[f64; AXES]]) -> Vec<Option<usize>> {
     let dominated = |point: &[f64; AXES]| points.iter().any(|other| dominates(other, point));
     let front: Vec<usize> = (0..points.len()).filter(|&place| !dominated(&points[place])).collect();
     points

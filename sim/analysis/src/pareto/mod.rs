@@ -15,13 +15,13 @@
 
 pub mod check;
 pub mod contender;
-pub mod error;
-pub mod front;
-pub mod functions;
+mod error;
+pub(crate) mod front;
+mod functions;
 pub mod inputs;
-pub mod kernel;
+mod kernel;
 pub mod synthesis;
-pub mod table;
+mod table;
 pub mod timing;
 
 use hw_model::fit::FitError;

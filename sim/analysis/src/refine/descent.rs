@@ -31,7 +31,7 @@ pub struct Found {
 }
 
 /// The best integers that were found for a piece.
-pub fn search(piece: &Piece<'_>, reach: i32) -> Found {
+pub(super) fn search(piece: &Piece<'_>, reach: i32) -> Found {
     let mut search = Search { piece, judge: Judge::new(piece), reach };
     let start = search.judge.below([0; 4], f64::INFINITY);
     let start = start.unwrap_or(Worst { error: f64::INFINITY, x: piece.span.first });

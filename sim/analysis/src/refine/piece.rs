@@ -27,7 +27,7 @@ pub enum Range {
 
 /// Which segment, and its x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Span {
+pub(super) struct Span {
     /// The row.
     pub address: u32,
     /// The second segment.
@@ -40,13 +40,13 @@ pub struct Span {
 
 impl Span {
     /// How many x it has.
-    pub const fn samples(&self) -> u64 {
+    pub(super) const fn samples(&self) -> u64 {
         (self.last - self.first + 1) as u64
     }
 }
 
 /// The segments of a row that answer anything in the range.
-pub fn spans(design: &Design, address: u32, range: Range) -> Vec<Span> {
+pub(super) fn spans(design: &Design, address: u32, range: Range) -> Vec<Span> {
     let row = &design.rows()[address as usize];
     if row.polynomial.is_none() {
         return Vec::new();
@@ -70,13 +70,13 @@ pub fn spans(design: &Design, address: u32, range: Range) -> Vec<Span> {
 
 /// The greatest error and the x where it is first seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Worst {
+pub(super) struct Worst {
     pub error: f64,
     pub x: i64,
 }
 
 /// One segment with all that does not change while its integers do.
-pub struct Piece<'a> {
+pub(super) struct Piece<'a> {
     pub design: &'a Design,
     pub span: Span,
     pub exponent: f64,
@@ -93,7 +93,7 @@ pub struct Piece<'a> {
 }
 
 impl<'a> Piece<'a> {
-    pub fn new(design: &'a Design, span: Span) -> Self {
+    pub(super) fn new(design: &'a Design, span: Span) -> Self {
         let row = &design.rows()[span.address as usize];
         let input = design.config().input;
         let mut method = 0.0_f64;
@@ -120,12 +120,12 @@ impl<'a> Piece<'a> {
     }
 
     /// x^n at an x of the span.
-    pub fn reference(&self, x: i64) -> f64 {
+    pub(super) fn reference(&self, x: i64) -> f64 {
         self.reference[(x - self.span.first) as usize]
     }
 
     /// The polynomial's variable at an x of the span, as the hardware has it.
-    pub fn variable(&self, x: i64) -> i64 {
+    pub(super) fn variable(&self, x: i64) -> i64 {
         let front_end = self.design.datapath().front_end();
         let (start, shift) = if self.span.outer {
             (front_end.hand_over(&self.row), self.row.shift_outer())
@@ -136,7 +136,7 @@ impl<'a> Piece<'a> {
     }
 
     /// The row with its integers moved.
-    pub fn moved(&self, steps: [i32; 4]) -> Row {
+    pub(super) fn moved(&self, steps: [i32; 4]) -> Row {
         let mut row = self.row;
         for (field, steps) in self.fields.into_iter().zip(steps) {
             row.set(field, row.get(field) + i64::from(steps));
@@ -145,7 +145,7 @@ impl<'a> Piece<'a> {
     }
 
     /// The steps from the rounded coefficients, where these are from the row as it is.
-    pub fn steps_in_all(&self, steps: [i32; 4]) -> [i32; 4] {
+    pub(super) fn steps_in_all(&self, steps: [i32; 4]) -> [i32; 4] {
         let config = self.design.config();
         let before = config.coefficient_steps.iter().find(|row| row.n == self.exponent);
         let before = before.map_or([0; 4], |row| match self.span.outer {
@@ -156,7 +156,7 @@ impl<'a> Piece<'a> {
     }
 
     /// True where every coefficient stays within its format.
-    pub fn within_formats(&self, steps: [i32; 4]) -> bool {
+    pub(super) fn within_formats(&self, steps: [i32; 4]) -> bool {
         let Some(formats) = &self.design.datapath().formats().polynomial else { return false };
         let row = self.moved(steps);
         let mut both = self.fields.into_iter().zip(formats.coefficients);
@@ -164,7 +164,7 @@ impl<'a> Piece<'a> {
     }
 
     /// True where the design's own analysis cannot say that every register holds its values.
-    pub fn overflows(&self, steps: [i32; 4]) -> bool {
+    pub(super) fn overflows(&self, steps: [i32; 4]) -> bool {
         let row =
             CoefficientSteps::none(self.exponent).with(self.span.outer, self.steps_in_all(steps));
         let revision = Revision {
@@ -195,7 +195,7 @@ fn free(design: &Design, outer: bool, fields: [FieldName; 4]) -> [bool; 4] {
 }
 
 /// Judges integers of one piece, and remembers where others were bad.
-pub struct Judge<'a, 'b> {
+pub(super) struct Judge<'a, 'b> {
     piece: &'a Piece<'b>,
     pool: Vec<i64>,
     next: usize,
@@ -204,12 +204,12 @@ pub struct Judge<'a, 'b> {
 }
 
 impl<'a, 'b> Judge<'a, 'b> {
-    pub fn new(piece: &'a Piece<'b>) -> Self {
+    pub(super) fn new(piece: &'a Piece<'b>) -> Self {
         Self { piece, pool: Vec::new(), next: 0, block: Block::default(), xs: Vec::new() }
     }
 
     /// The greatest error over every x; none where it is not less than `limit`.
-    pub fn below(&mut self, steps: [i32; 4], limit: f64) -> Option<Worst> {
+    pub(super) fn below(&mut self, steps: [i32; 4], limit: f64) -> Option<Worst> {
         let row = self.piece.moved(steps);
         if !self.pool.is_empty() {
             self.xs.clear();

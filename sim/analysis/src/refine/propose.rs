@@ -14,7 +14,7 @@ const POINTS: i64 = 96;
 /// Integers on either side of the least-squares c2, and of the c1 that belongs to it.
 const AROUND: [i32; 2] = [8, 4];
 /// Sets that are worth the data path.
-pub const MOST: usize = 384;
+pub(super) const MOST: usize = 384;
 
 /// The least-squares problem of c1, c2 (and c3): errors and weights at each point.
 struct Points {
@@ -24,7 +24,7 @@ struct Points {
 }
 
 /// The best sets, the best of them first; of equal ones that with the lesser steps.
-pub fn propose(piece: &Piece<'_>, reach: i32) -> Vec<[i32; 4]> {
+pub(super) fn propose(piece: &Piece<'_>, reach: i32) -> Vec<[i32; 4]> {
     let Some(points) = Points::of(piece) else { return Vec::new() };
     let mut found: Vec<(f64, [i32; 4])> = Vec::new();
     let within = |index: usize| if piece.free[index] { reach } else { 0 };

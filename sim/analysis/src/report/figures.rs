@@ -29,7 +29,7 @@ fn against_n(report: &ErrorReport, name: &str, of: fn(&ErrorRow) -> f64) -> Curv
 
 /// Absolute and relative error on the epicentre, with the bound.
 #[must_use]
-pub fn epicentre(report: &ErrorReport) -> Chart {
+pub(super) fn epicentre(report: &ErrorReport) -> Chart {
     let curves = vec![
         against_n(report, "total, absolute", |row| row.total_abs),
         against_n(report, "method alone, absolute", |row| row.approximation_abs),
@@ -41,7 +41,7 @@ pub fn epicentre(report: &ErrorReport) -> Chart {
 
 /// The parts of the error and the total on all of [0, 1].
 #[must_use]
-pub fn full_range(report: &ErrorReport) -> Chart {
+pub(super) fn full_range(report: &ErrorReport) -> Chart {
     let curves = vec![
         against_n(report, "total on all of [0, 1]", |row| row.full_range_abs),
         against_n(report, "total on the epicentre", |row| row.total_abs),
@@ -63,7 +63,7 @@ fn bound(report: &ErrorReport) -> ReferenceLine {
 
 /// Phong, Schlick, the paper's g and the hardware's output against the angle, for one exponent of the ROM.
 #[must_use]
-pub fn curves(design: &Design, exponent: f64) -> Chart {
+pub(super) fn curves(design: &Design, exponent: f64) -> Chart {
     let grid = angle_grid(exponent, CURVE_POINTS);
     let curve = |name: &str, value: &dyn Fn(f64) -> f64| {
         Curve::new(name, grid.iter().map(|&(degrees, x)| (degrees, value(x))).collect())

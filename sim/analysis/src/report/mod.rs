@@ -1,7 +1,7 @@
 //! The files and figures of a report.
 
 pub mod claims;
-pub mod figures;
+mod figures;
 pub mod files;
 pub mod pareto;
 pub mod pareto_figures;

@@ -15,7 +15,7 @@ const POINTS: i64 = 256;
 const LEVEL: f64 = 0.995;
 
 /// The configurations worth a look, their widths still to be derived.
-pub fn candidates(request: &Request) -> Vec<Config> {
+pub(super) fn candidates(request: &Request) -> Vec<Config> {
     let mut all = Vec::new();
     for form in [Form::Centred, Form::Power] {
         for method in [
@@ -89,7 +89,7 @@ fn plain(request: &Request) -> Config {
 ///
 /// # Errors
 /// When a level is out of range.
-pub fn least_xs(request: &Request) -> Result<Vec<i64>, FitError> {
+pub(super) fn least_xs(request: &Request) -> Result<Vec<i64>, FitError> {
     let input = request.input;
     request
         .exponents
@@ -119,7 +119,7 @@ pub struct RealError {
 ///
 /// # Errors
 /// When a row cannot be fitted.
-pub fn real_error(config: &Config, least: &[i64]) -> Result<RealError, DesignError> {
+pub(super) fn real_error(config: &Config, least: &[i64]) -> Result<RealError, DesignError> {
     let levels = config.levels()?;
     let mut worst = RealError { whole: 0.0, n: config.exponents.first(), answered: 0.0 };
     for (exponent, &least) in config.exponents.iter().zip(least) {

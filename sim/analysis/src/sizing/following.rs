@@ -36,7 +36,7 @@ macro_rules! of_rom {
 ///
 /// # Errors
 /// When a register does not hold what it should.
-pub fn witnesses(design: &Design) -> Result<Vec<Witness>, SizingError> {
+pub(super) fn witnesses(design: &Design) -> Result<Vec<Witness>, SizingError> {
     let datapath = design.datapath();
     let formats = datapath.formats();
     let t3 = Following {

@@ -41,7 +41,7 @@ struct Chosen {
 }
 
 /// What designs of the same polynomials are measured by, wherever their rows end.
-pub struct Judge {
+pub(super) struct Judge {
     /// The least x of each row that was asked for.
     least: Vec<i64>,
     chosen: Vec<Chosen>,
@@ -52,7 +52,7 @@ pub struct Judge {
 
 impl Judge {
     /// For designs with the polynomials of this one; `least` is the least x of each row.
-    pub fn new(design: &Design, least: &[i64], error: f64) -> Self {
+    pub(super) fn new(design: &Design, least: &[i64], error: f64) -> Self {
         let mut judge = Self {
             least: least.to_vec(),
             chosen: vec![Chosen::default(); least.len()],
@@ -98,7 +98,7 @@ impl Judge {
     }
 
     /// Asks this x first from now on.
-    pub fn choose(&mut self, design: &Design, address: u32, x: i64) {
+    pub(super) fn choose(&mut self, design: &Design, address: u32, x: i64) {
         let exponent = design.rows()[address as usize].exponent;
         let chosen = &mut self.chosen[address as usize];
         chosen.xs.push(x);
@@ -106,7 +106,7 @@ impl Judge {
     }
 
     /// Whether the chosen x keep the error.
-    pub fn may_pass(&mut self, design: &Design) -> bool {
+    pub(super) fn may_pass(&mut self, design: &Design) -> bool {
         let ulp = design.config().output.ulp();
         let mut block = Block::default();
         let failed = self.order.iter().position(|&address| {
@@ -123,7 +123,7 @@ impl Judge {
     }
 
     /// The greatest error of every piece of every row, over every x.
-    pub fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
+    pub(super) fn measured(&self, design: &Design, progress: &dyn Progress) -> Vec<Place> {
         let pieces: Vec<(u32, i64, i64)> = (0..self.least.len() as u32)
             .filter_map(|address| Some((address, self.span(design, address)?)))
             .flat_map(|(address, (first, last))| {
@@ -145,7 +145,7 @@ impl Judge {
 }
 
 /// The greatest of all pieces, the first of equal ones.
-pub fn greatest(pieces: &[Place]) -> Option<Place> {
+pub(super) fn greatest(pieces: &[Place]) -> Option<Place> {
     pieces.iter().copied().reduce(|worst, row| if row.error > worst.error { row } else { worst })
 }
 

@@ -18,7 +18,7 @@ use vectors::progress::Progress;
 
 /// A state of the search: formats with no integer bit to spare.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State {
+pub(super) struct State {
     pub formats: Each<QFormat>,
     pub hardware: Hardware,
 }
@@ -27,7 +27,7 @@ pub struct State {
 ///
 /// # Errors
 /// When there is no such design.
-pub fn loose(base: &Design, formats: &Each<QFormat>) -> Result<Design, DesignError> {
+pub(super) fn loose(base: &Design, formats: &Each<QFormat>) -> Result<Design, DesignError> {
     let revised = |room| {
         let widths = stated(&loosened(formats, room));
         base.revised(Revision { widths, error_budget_ulp: NO_BUDGET, ..base.revision() })
@@ -38,7 +38,7 @@ pub fn loose(base: &Design, formats: &Each<QFormat>) -> Result<Design, DesignErr
 
 /// The narrowest state that was found, and the greatest error of it; none where not even the proved widths
 /// keep the error.
-pub fn narrow(
+pub(super) fn narrow(
     base: &Design,
     judge: &mut Judge,
     progress: &dyn Progress,

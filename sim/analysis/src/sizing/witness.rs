@@ -68,7 +68,7 @@ pub struct Witness {
 ///
 /// # Errors
 /// When a register could be narrower after all, or a witness does not testify.
-pub fn witnesses(
+pub(super) fn witnesses(
     base: &Design,
     judge: &Judge,
     state: &State,

@@ -18,4 +18,4 @@ mod expressions;
 pub mod reference;
 pub mod seams;
 mod wide;
-pub mod words;
+mod words;

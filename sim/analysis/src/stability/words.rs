@@ -46,7 +46,7 @@ const COEFFICIENTS: [FieldName; 10] = [
 
 /// Every coefficient of the ROM at the edges of its format, at these addresses.
 #[must_use]
-pub fn words(design: &Design, addresses: &[u32]) -> Vec<Word> {
+pub(super) fn words(design: &Design, addresses: &[u32]) -> Vec<Word> {
     let mut all = Vec::new();
     for name in COEFFICIENTS {
         let Some(field) = design.rom().layout().field(name) else { continue };

@@ -13,7 +13,7 @@ use super::partition::{Axis, Cell};
 use crate::interval::{Interval, Real, Slopes};
 
 /// e(h, σ) over a range of h (one exponent, or all of them).
-pub trait ErrorFunction: Sync {
+pub(super) trait ErrorFunction: Sync {
     /// A range that holds every h in question.
     fn h(&self) -> Interval;
 
@@ -32,7 +32,7 @@ pub trait ErrorFunction: Sync {
 
 /// The σ of a region, whose ends are real numbers that no f64 hits.
 #[derive(Debug, Clone, Copy)]
-pub struct Span {
+pub(super) struct Span {
     /// A range that holds all of them, for what is to hold everywhere; infinite for a tail.
     pub outer: Interval,
     /// A range that is within them, for a witness.
@@ -55,7 +55,7 @@ impl Span {
 
     /// The box that a partition divides: up to `far` for a tail.
     #[must_use]
-    pub fn root(self, h: Interval, far: Option<f64>) -> Cell {
+    pub(super) fn root(self, h: Interval, far: Option<f64>) -> Cell {
         let high = far.unwrap_or(self.outer.high());
         Cell { h, sigma: Interval::new(self.outer.low(), high) }
     }
@@ -71,7 +71,7 @@ fn error<R: Real>(measure: Measure, curve: &Curve<R>, sigma: R) -> R {
 
 /// The error of one exponent.
 #[derive(Debug, Clone)]
-pub struct OneExponent {
+pub(super) struct OneExponent {
     region: Region,
     measure: Measure,
     logs: Logs,
@@ -85,7 +85,7 @@ impl OneExponent {
     ///
     /// # Errors
     /// When n is out of range.
-    pub fn new(
+    pub(super) fn new(
         method: Method,
         n: f64,
         region: Region,
@@ -145,7 +145,7 @@ impl ErrorFunction for OneExponent {
 
 /// The error of every exponent n ≥ 1 at once, h = 1/n from 1 down to the limit 0, on the epicentre.
 #[derive(Debug, Clone)]
-pub struct EveryExponent {
+pub(super) struct EveryExponent {
     method: Method,
     measure: Measure,
     logs: Logs,
@@ -154,7 +154,7 @@ pub struct EveryExponent {
 impl EveryExponent {
     /// The error of `method`.
     #[must_use]
-    pub fn new(method: Method, measure: Measure, levels: Levels) -> Self {
+    pub(super) fn new(method: Method, measure: Measure, levels: Levels) -> Self {
         Self { method, measure, logs: Logs::new(levels) }
     }
 

@@ -11,7 +11,7 @@ use crate::interval::Interval;
 
 /// A box: every h with every σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cell {
+pub(super) struct Cell {
     /// 1/n.
     pub h: Interval,
     /// −n·ln x.
@@ -20,7 +20,7 @@ pub struct Cell {
 
 /// What a box can be halved in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
+pub(super) enum Axis {
     /// σ.
     Sigma,
     /// h.
@@ -30,7 +30,7 @@ pub enum Axis {
 impl Axis {
     /// How a partition writes it.
     #[must_use]
-    pub const fn symbol(self) -> char {
+    pub(super) const fn symbol(self) -> char {
         match self {
             Self::Sigma => '1',
             Self::H => '2',
@@ -39,11 +39,11 @@ impl Axis {
 }
 
 /// A box that is not halved.
-pub const LEAF: char = '0';
+pub(super) const LEAF: char = '0';
 
 /// Why a text is no partition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum PartitionError {
+pub(super) enum PartitionError {
     /// A sign that means nothing here.
     #[error("position {position}: {found:?} is none of {allowed}")]
     Sign {
@@ -74,7 +74,7 @@ pub enum PartitionError {
 impl Cell {
     /// Both halves, or `None` where no f64 lies between the ends.
     #[must_use]
-    pub fn halves(self, axis: Axis) -> Option<[Self; 2]> {
+    pub(super) fn halves(self, axis: Axis) -> Option<[Self; 2]> {
         let whole = match axis {
             Axis::Sigma => self.sigma,
             Axis::H => self.h,
@@ -95,7 +95,7 @@ impl Cell {
 ///
 /// # Errors
 /// When the text is no partition.
-pub fn boxes(text: &str, root: Cell, in_h: bool) -> Result<Vec<Cell>, PartitionError> {
+pub(super) fn boxes(text: &str, root: Cell, in_h: bool) -> Result<Vec<Cell>, PartitionError> {
     let mut waiting = vec![root];
     let mut boxes = Vec::new();
     for (position, found) in text.chars().enumerate() {

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Three coordinates, in the scene's own unit of length.
-pub type Triple = [f64; 3];
+pub(super) type Triple = [f64; 3];
 
 /// A picture to be rendered: what is seen, by which light, and in how many display codes.
 #[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]

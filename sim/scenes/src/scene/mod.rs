@@ -9,7 +9,7 @@
 
 mod check;
 mod checked;
-pub mod description;
+mod description;
 mod error;
 mod knot;
 mod mesh;
