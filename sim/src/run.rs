@@ -7,6 +7,8 @@
 
 use std::collections::VecDeque;
 
+use vectors::StimulusLine;
+
 use crate::pipeline::{Inputs, Outputs, Pipeline, Ranks};
 
 /// One cycle of stimulus.
@@ -18,6 +20,14 @@ pub struct StimulusCycle {
     pub ready: bool,
     /// Whether reset is high in this cycle.
     pub reset: bool,
+}
+
+impl From<&StimulusLine> for StimulusCycle {
+    /// What a line of a stimulus file drives.
+    fn from(line: &StimulusLine) -> Self {
+        let request = line.valid.then_some((line.case.address, line.case.x));
+        Self { request, ready: line.ready, reset: line.reset }
+    }
 }
 
 /// Everything visible in one cycle, at the rising edge that ends it.

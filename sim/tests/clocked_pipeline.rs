@@ -195,10 +195,7 @@ fn the_example_stimulus_shows_a_stall_a_bubble_and_a_reset() {
     let design = design("paper");
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/stimulus.csv");
     let lines = vectors::read_stimulus(path.as_ref(), design.rom(), design.config().input).unwrap();
-    let stimulus = lines.iter().map(|line| {
-        let request = line.valid.then_some((line.case.address, line.case.x));
-        Ok::<_, Infallible>(StimulusCycle { request, ready: line.ready, reset: line.reset })
-    });
+    let stimulus = lines.iter().map(|line| Ok::<_, Infallible>(StimulusCycle::from(line)));
     let mut flags = Vec::new();
     let counts = run(&mut Pipeline::new(design.datapath()), stimulus, |cycle| {
         if cycle.outputs.out_valid && cycle.inputs.out_ready {

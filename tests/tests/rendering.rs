@@ -10,8 +10,8 @@ use hw_model::highlight::phong;
 use hw_model::presets;
 use proptest::prelude::*;
 use scenes::render::{
-    Bvh, Codes, Part, Pipeline, Presented, Ray, Samples, SurfacePixel, Which, difference, meet,
-    presented, reference, samples, shade,
+    Bvh, Codes, Presented, Ray, Samples, ScenePipeline, SurfacePixel, Which, Zone, difference,
+    meet, presented, reference, samples, shade,
 };
 use scenes::scene::{
     Angle, Knot, Light, Normals, Origin, Scene, Shape, Surface, Triangle, Vector, schema, triangles,
@@ -221,7 +221,7 @@ thread_local! {
 }
 
 fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
-    let pipeline = Pipeline::new(design, scene).unwrap();
+    let pipeline = ScenePipeline::new(design, scene).unwrap();
     let every = pipeline.answers(samples, Which::Every);
     let needed = pipeline.answers(samples, Which::Needed);
     assert_eq!(every.intensities, needed.intensities);
@@ -235,16 +235,16 @@ fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
         let Signals { intensity, region, .. } = design.datapath().evaluate(address, x);
         let part = needed.parts[index];
         if !(sample.lit > 0.0 && sample.x > 0.0) {
-            assert_eq!((part, needed.intensities[index]), (Part::FacesAway, 0));
+            assert_eq!((part, needed.intensities[index]), (Zone::FacesAway, 0));
             continue;
         }
         asked += u64::from(region != Region::Zero);
         assert_eq!(needed.intensities[index], intensity, "n = {exponent}, x = {x}");
         let row = design.rows()[address as usize];
         let wanted = match region {
-            Region::Zero => Part::Zero,
-            _ if x >= row.first_of_epicentre(design.config()) => Part::Epicentre,
-            _ => Part::Tail,
+            Region::Zero => Zone::Zero,
+            _ if x >= row.first_of_epicentre(design.config()) => Zone::Epicentre,
+            _ => Zone::Tail,
         };
         assert_eq!(part, wanted, "n = {exponent}, x = {x}");
     }
@@ -256,7 +256,7 @@ fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
 fn requests_are_the_samples_by_exponent() {
     let scene = scene("many_materials");
     let design = design("paper");
-    let pipeline = Pipeline::new(&design, &scene).unwrap();
+    let pipeline = ScenePipeline::new(&design, &scene).unwrap();
     let samples = samples(&scene, &Silent);
     let groups = pipeline.requests(&samples, 0..samples.samples.len(), Which::Every);
     let mut seen = vec![false; samples.samples.len()];
@@ -285,7 +285,7 @@ fn every_preset_renders_every_scene() {
             let scene = scene(name);
             let samples = samples(&scene, &Silent);
             one_by_one(&scene, &design, &samples);
-            let pipeline = Pipeline::new(&design, &scene).unwrap();
+            let pipeline = ScenePipeline::new(&design, &scene).unwrap();
             let answers = pipeline.answers(&samples, Which::Needed);
             let codes = Codes::new(&scene.image);
             let ideal = shade(&scene, &samples, &codes, &reference(&scene, &samples));
@@ -323,9 +323,9 @@ fn the_close_up_never_leaves_the_epicentre() {
     let samples = samples(&scene, &Silent);
     let count = scene.image.width * scene.image.height;
     assert_eq!(samples.pixels.len(), count as usize, "it fills the picture");
-    let pipeline = Pipeline::new(&design, &scene).unwrap();
+    let pipeline = ScenePipeline::new(&design, &scene).unwrap();
     let answers = pipeline.answers(&samples, Which::Every);
-    assert!(answers.parts.iter().all(|&part| part == Part::Epicentre));
+    assert!(answers.parts.iter().all(|&part| part == Zone::Epicentre));
     let [material] = scene.materials.as_slice() else { panic!("one material") };
     let epicentre = 0.5_f64.powf(1.0 / material.exponent);
     let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);

@@ -40,6 +40,6 @@ pub use bundle::{Bundle, BundleError};
 pub use case::{Case, Sample, Strategy};
 pub use kind::Kind;
 pub use manifest::Manifest;
-pub use stimulus_file::{Cycle, StimulusError, read_stimulus};
+pub use stimulus_file::{StimulusError, StimulusLine, read_stimulus};
 pub use verify::{Verified, VerifyError, verify};
 pub use whole_file::{OutputError, OutputFile, OutputSet, Staging, WholeFile};

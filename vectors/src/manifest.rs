@@ -14,6 +14,7 @@ use crate::case::Strategy;
 use crate::checksum::Checksum;
 use crate::faults::Compact;
 use crate::negative_control::NegativeControl;
+use crate::output_text::json;
 use crate::packing::WordLayout;
 
 /// The manifest's own name.
@@ -229,9 +230,7 @@ impl Manifest {
     #[must_use]
     pub fn to_json(&self) -> String {
         // Plain fields and string keys: serialising cannot fail.
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        json(self).unwrap_or_default()
     }
 }
 

@@ -30,7 +30,7 @@ use crate::text_file::{self, STIMULUS, TextError, TextReader};
 
 /// What one clock cycle puts on the pipeline's input ports.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cycle {
+pub struct StimulusLine {
     /// Address and x; both 0 where the file left them empty.
     pub case: Case,
     /// `in_valid`.
@@ -87,7 +87,11 @@ pub enum StimulusError {
 ///
 /// # Errors
 /// Names the file, the line and the field, what is wrong and what would be right.
-pub fn read_stimulus(path: &Path, rom: &Rom, input: QFormat) -> Result<Vec<Cycle>, StimulusError> {
+pub fn read_stimulus(
+    path: &Path,
+    rom: &Rom,
+    input: QFormat,
+) -> Result<Vec<StimulusLine>, StimulusError> {
     parse(text_file::open(path, STIMULUS)?, path, rom, input)
 }
 
@@ -100,7 +104,7 @@ pub fn parse_stimulus(
     path: &Path,
     rom: &Rom,
     input: QFormat,
-) -> Result<Vec<Cycle>, StimulusError> {
+) -> Result<Vec<StimulusLine>, StimulusError> {
     parse(TextReader::new(from, STIMULUS), path, rom, input)
 }
 
@@ -109,7 +113,7 @@ fn parse(
     path: &Path,
     rom: &Rom,
     input: QFormat,
-) -> Result<Vec<Cycle>, StimulusError> {
+) -> Result<Vec<StimulusLine>, StimulusError> {
     let in_line = |line, problem| StimulusError::Line { path: path.to_owned(), line, problem };
     let refused = |error| match error {
         RecordError::Text(problem) => TextError::new(path, &STIMULUS, problem).into(),
@@ -189,7 +193,7 @@ impl Columns {
         Ok(columns)
     }
 
-    fn cycle(&self, fields: &[&str], rom: &Rom, input: QFormat) -> Result<Cycle, Wrong> {
+    fn cycle(&self, fields: &[&str], rom: &Rom, input: QFormat) -> Result<StimulusLine, Wrong> {
         let text = |place: usize| fields.get(place).copied().unwrap_or_default();
         let flag = |field, place: Option<usize>, default| match place.map(text) {
             None => Ok(default),
@@ -207,7 +211,7 @@ impl Columns {
             let x = if self.bits { bits(x, input) } else { real(x, input) };
             Case::of(rom, exponent, x.map_err(|problem| Wrong { field, problem })?)
         };
-        Ok(Cycle {
+        Ok(StimulusLine {
             case,
             valid,
             ready: flag("ready", self.ready, true)?,

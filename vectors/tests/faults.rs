@@ -10,7 +10,7 @@ use hw_model::design::Design;
 use hw_model::rom::FieldName;
 use hw_model::rounding::Rounding;
 use vectors::faults::{
-    Compact, Defect, Fault, FieldFault, HANDSHAKE, Model, OneByOne, RowFaults, Screen, Verdict,
+    Compact, Defect, Fault, FaultFate, FieldFault, HANDSHAKE, Model, OneByOne, RowFaults, Screen,
     Workers, field_faults, pipeline_faults,
 };
 use vectors::reference::Expected;
@@ -59,7 +59,7 @@ fn the_compact_set_kills_whatever_can_be_killed() {
         let inputs = every_input(&design);
         let right: Vec<Expected> =
             inputs.iter().map(|&case| Expected::of(datapath, case)).collect();
-        for &Verdict { fault, killed_by } in set.verdicts() {
+        for &FaultFate { fault, killed_by } in set.verdicts() {
             let faulty = model.faulty(fault);
             let is_killed = |case: Case| faulty.answer(case) != Expected::of(datapath, case);
             let by = set.samples().iter().position(|sample| is_killed(sample.case));
@@ -216,7 +216,7 @@ fn the_default_bundle_kills_what_a_row_can_have() {
             matches!(verdict.fault, Fault::Field(_)) && verdict.killed_by.is_some()
         });
         let mut count = 0;
-        for Verdict { fault, .. } in killable {
+        for FaultFate { fault, .. } in killable {
             let faulty = model.faulty(*fault);
             let differs = |case| faulty.answer(case) != Expected::of(design.datapath(), case);
             let mut samples = stimulus.targets().samples().iter();

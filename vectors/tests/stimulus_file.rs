@@ -5,9 +5,9 @@ mod common;
 use std::path::Path;
 
 use proptest::prelude::*;
-use vectors::stimulus_file::{Cycle, StimulusError, parse_stimulus};
+use vectors::stimulus_file::{StimulusError, StimulusLine, parse_stimulus};
 
-fn parse(text: impl AsRef<[u8]>) -> Result<Vec<Cycle>, StimulusError> {
+fn parse(text: impl AsRef<[u8]>) -> Result<Vec<StimulusLine>, StimulusError> {
     // n in 1, 2, 3.5, 8; x in Q2.8
     let design = common::small();
     parse_stimulus(text.as_ref(), Path::new("in.csv"), design.rom(), design.config().input)

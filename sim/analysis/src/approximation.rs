@@ -25,14 +25,14 @@ const HALVINGS: u32 = 55;
 
 /// An interval of s = 1 − x, 0 ≤ low ≤ high ≤ 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Region {
+pub struct Extent {
     /// Its end nearer to the highlight.
     pub s_low: f64,
     /// Its far end.
     pub s_high: f64,
 }
 
-impl Region {
+impl Extent {
     /// All of [0, 1].
     pub const WHOLE: Self = Self { s_low: 0.0, s_high: 1.0 };
 
@@ -129,7 +129,7 @@ approximant!(Fit, Centred, Segment);
 ///
 /// The error's magnitude is accurate to about 10⁻¹⁵ absolutely, the noise of evaluating f.
 #[must_use]
-pub fn approximation(fit: &impl Approximant, exponent: f64, region: Region) -> ApproximationError {
+pub fn approximation(fit: &impl Approximant, exponent: f64, region: Extent) -> ApproximationError {
     let grid = region.grid(exponent);
     let power = |s| phong_at_s(exponent, s);
     let absolute = greatest(
@@ -213,7 +213,7 @@ mod tests {
         // Schlick at n = 2 on all of [0, 1]: x/(2 − x) − x², which is greatest where
         // 2/(2 − x)² = 2x, x·(2 − x)² = 1, x = (3 − √5)/2.
         let schlick = fit(Method::Schlick, 2.0, Levels::default()).unwrap();
-        let found = approximation(&schlick, 2.0, Region::WHOLE);
+        let found = approximation(&schlick, 2.0, Extent::WHOLE);
         let x = (3.0 - 5.0_f64.sqrt()) / 2.0;
         assert!((found.absolute.x() - x).abs() < 1e-14, "{found:?}");
         assert!((found.absolute.error - (x / (2.0 - x) - x * x)).abs() < 1e-16);
@@ -224,7 +224,7 @@ mod tests {
     fn a_cubic_far_below_its_epicentre_is_seen_too() {
         // Below the cut the Hermite cubic rises to about 0.047·n² near x = 1/3.
         let hermite = fit(Method::Hermite, 1024.0, Levels::default()).unwrap();
-        let found = approximation(&hermite, 1024.0, Region::WHOLE).absolute;
+        let found = approximation(&hermite, 1024.0, Extent::WHOLE).absolute;
         assert!((found.error - 49_313.0).abs() < 1.0, "{found:?}");
         assert!((found.x() - 1.0 / 3.0).abs() < 1e-3, "{found:?}");
     }
@@ -235,7 +235,7 @@ mod tests {
         fn it_is_the_maximum(decades in 0.0_f64..9.0, part in 0.0_f64..=1.0, which in 0_usize..7) {
             let (n, method) = (10.0_f64.powf(decades), Method::ALL[which]);
             let fit = fit(method, n, Levels::default()).unwrap();
-            for region in [Region::epicentre(&fit), Region { s_low: 0.0, s_high: (4.0 / n).min(0.99) }] {
+            for region in [Extent::epicentre(&fit), Extent { s_low: 0.0, s_high: (4.0 / n).min(0.99) }] {
                 let found = approximation(&fit, n, region);
                 let s = region.s_low + part * (region.s_high - region.s_low);
                 let absolute = |s| (fit.value_at_s(s) - phong_at_s(n, s)).abs();

@@ -13,7 +13,7 @@ use serde::Serialize;
 use vectors::progress::Progress;
 use vectors::stimulus::corners::Corners;
 
-use super::approximation::{ApproximationError, Region, approximation};
+use super::approximation::{ApproximationError, Extent, approximation};
 use super::sweep::{RowErrors, Xs, input_quantisation, sweep_row};
 
 /// Points spread evenly over the epicentre, and again over [0, 1].
@@ -209,9 +209,9 @@ fn of_segments(config: &Config, row: &RealRow) -> Option<ApproximationError> {
     }
     let end = row.epicentre;
     let start = row.outer.map_or(end, |outer| outer.segment.start.min(end));
-    let near = Region { s_low: 0.0, s_high: start };
+    let near = Extent { s_low: 0.0, s_high: start };
     let found = approximation(&first.centred, row.exponent, near);
-    let far = Region { s_low: start, s_high: end };
+    let far = Extent { s_low: start, s_high: end };
     Some(match &row.outer {
         Some(outer) if start < end => found.or(approximation(&outer.segment, row.exponent, far)),
         _ => found,
@@ -232,7 +232,7 @@ fn error_row(
         .iter()
         .find(|row| row.exponent == exponent)
         .and_then(|row| of_segments(config, row));
-    let method = fitted.unwrap_or_else(|| approximation(&fit, exponent, Region::epicentre(&fit)));
+    let method = fitted.unwrap_or_else(|| approximation(&fit, exponent, Extent::epicentre(&fit)));
     let x = |bits: i64| hw_model::quantise::real(bits, config.input);
     Ok(ErrorRow {
         n: exponent,

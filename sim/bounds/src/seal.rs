@@ -11,6 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use vectors::checksum::checksum;
+use vectors::output_text::json;
 
 /// A file that is sealed.
 pub trait Sealed: Clone + Serialize + DeserializeOwned {
@@ -91,9 +92,7 @@ pub fn seal<T: Sealed>(mut file: T) -> T {
 #[must_use]
 pub fn to_json<T: Sealed>(file: &T) -> String {
     // A struct of plain fields with string keys: serialising it cannot fail.
-    let mut text = serde_json::to_string_pretty(file).unwrap_or_default();
-    text.push('\n');
-    text
+    json(file).unwrap_or_default()
 }
 
 /// Reads a file. That it can be read says nothing of its truth, nor of its seal.

@@ -11,6 +11,7 @@ use super::output;
 use super::table::{Cell, Format, Rows, write_folded};
 use analysis::claims::{Claim, claims};
 use analysis::report::claims::page;
+use vectors::output_text::json;
 
 /// Judge the claims of the paper: what holds, for which exponents, and what is misprinted.
 ///
@@ -90,10 +91,6 @@ fn print(claims: &[Claim], args: &Args, out: &mut Out) -> anyhow::Result<()> {
         (Shape::Json, _) => Ok(out.write_all(json(claims)?.as_bytes())?),
         (Shape::Markdown, _) => Ok(out.write_all(page(claims, COMMAND)?.as_bytes())?),
     }
-}
-
-fn json(claims: &[Claim]) -> anyhow::Result<String> {
-    Ok(serde_json::to_string_pretty(claims)? + "\n")
 }
 
 /// One claim to a paragraph: a table of four columns would fold each cell many times.

@@ -23,7 +23,7 @@ pub(super) struct Configuration {
 }
 
 /// Which configuration, for a command that may do without one.
-#[derive(Args)]
+#[derive(Clone, Args)]
 #[group(multiple = false)]
 pub(super) struct MaybeConfiguration {
     /// A preset; `blysk presets` lists them.
@@ -37,25 +37,17 @@ pub(super) struct MaybeConfiguration {
 impl MaybeConfiguration {
     /// The hardware of the configuration, where there is one.
     pub(super) fn design(&self) -> anyhow::Result<Option<Design>> {
-        let Self { preset, config } = self;
-        if preset.is_none() && config.is_none() {
-            return Ok(None);
-        }
-        self.stated().design().map(Some)
+        self.stated().map(|stated| stated.design()).transpose()
     }
 
     /// The configuration, where there is one.
     pub(super) fn config(&self) -> anyhow::Result<Option<Config>> {
-        let Self { preset, config } = self;
-        if preset.is_none() && config.is_none() {
-            return Ok(None);
-        }
-        Ok(Some(self.stated().load()?.0))
+        Ok(self.stated().map(|stated| stated.load()).transpose()?.map(|(config, _)| config))
     }
 
     /// The option as it would be typed; nothing where there is none.
     pub(super) fn option(&self) -> String {
-        self.stated().option()
+        self.stated().map_or_else(String::new, |stated| stated.option())
     }
 
     /// The files that it is read from.
@@ -63,8 +55,10 @@ impl MaybeConfiguration {
         self.config.iter().cloned().collect()
     }
 
-    fn stated(&self) -> Configuration {
-        Configuration { preset: self.preset.clone(), config: self.config.clone() }
+    /// The configuration, where the user states one.
+    fn stated(&self) -> Option<Configuration> {
+        let Self { preset, config } = self.clone();
+        (preset.is_some() || config.is_some()).then_some(Configuration { preset, config })
     }
 }
 

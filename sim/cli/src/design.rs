@@ -18,7 +18,7 @@ use super::output;
 use super::report::bound;
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use analysis::sizing::{
-    Breaks, Considered, Fewer, Over, Request, Sized, Verdict, Witness, samples, size,
+    Breaks, CandidateFate, Considered, Fewer, Over, Request, Sized, Witness, samples, size,
 };
 use hw_model::stated::Hardware;
 
@@ -158,10 +158,10 @@ fn ranking(considered: &[Considered]) -> Rows {
     ]);
     for one in considered {
         let (hardware, verdict) = match &one.verdict {
-            Verdict::TooFar => (None, format!("too far, n = {}", one.real.n)),
-            Verdict::Refused(_) => (None, "no widths".to_owned()),
-            Verdict::Proved(hardware) => (Some(*hardware), "proved".to_owned()),
-            Verdict::Narrowed(hardware) => (Some(*hardware), "narrowed".to_owned()),
+            CandidateFate::TooFar => (None, format!("too far, n = {}", one.real.n)),
+            CandidateFate::Refused(_) => (None, "no widths".to_owned()),
+            CandidateFate::Proved(hardware) => (Some(*hardware), "proved".to_owned()),
+            CandidateFate::Narrowed(hardware) => (Some(*hardware), "narrowed".to_owned()),
         };
         let rounding = one.rounding.map_or("any", short);
         let mut cells = vec![Cell::from(one.config.method.to_string())];

@@ -16,7 +16,7 @@ use super::output;
 use super::scene::{Loaded, counted, load, resized, size};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use scenes::render::{
-    Answers, Codes, Cycles, Part, Picture, Pipeline, Samples, Which, by_material, difference,
+    Answers, Codes, Cycles, Picture, Samples, ScenePipeline, Which, Zone, by_material, difference,
     encode, heat_map, methods, reference, samples, shade,
 };
 use scenes::report::{self as files, RenderReport};
@@ -70,7 +70,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let scene_name = || args.scene.display().to_string();
     let Loaded { mut scene, files: read } = load(&args.scene)?;
     resized(&mut scene, args.size)?;
-    let pipeline = Pipeline::new(&design, &scene).with_context(scene_name)?;
+    let pipeline = ScenePipeline::new(&design, &scene).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
     let inputs = [read, args.configuration.files()].concat();
     let names = files::PICTURES.into_iter().chain(files::TABLES);
@@ -115,7 +115,7 @@ struct Highlights {
 }
 
 impl Highlights {
-    fn new(pipeline: &Pipeline<'_>, samples: &Samples) -> Self {
+    fn new(pipeline: &ScenePipeline<'_>, samples: &Samples) -> Self {
         let timed = |which| {
             let begun = Instant::now();
             let answers = pipeline.answers(samples, which);
@@ -148,7 +148,7 @@ impl Rendered {
     fn new(
         scene: &Scene,
         samples: &Samples,
-        pipeline: &Pipeline<'_>,
+        pipeline: &ScenePipeline<'_>,
         highlights: &Highlights,
     ) -> Self {
         let codes = Codes::new(&scene.image);
@@ -167,7 +167,7 @@ fn report(
     args: &Args,
     scene: &Scene,
     samples: &Samples,
-    pipeline: &Pipeline<'_>,
+    pipeline: &ScenePipeline<'_>,
     rendered: &Rendered,
     highlights: &Highlights,
 ) -> RenderReport {
@@ -250,7 +250,7 @@ fn materials(report: &RenderReport) -> Rows {
     for row in &report.materials {
         let mut cells = vec![row.material.as_str().into(), Cell::Exponent(row.exponent)];
         cells.push(Cell::Integer(row.samples as i64));
-        cells.extend(Part::ALL.map(|part| Cell::Integer(row.count(part) as i64)));
+        cells.extend(Zone::ALL.map(|part| Cell::Integer(row.count(part) as i64)));
         cells.push(Cell::Real(row.highlight_greatest_codes));
         rows.push(cells);
     }
@@ -262,7 +262,7 @@ fn regions(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
     let pixels = u64::from(report.width) * u64::from(report.height);
     let places = (pixels * report.lights as u64).max(1) as f64;
     let share = |count: u64| format!("{:.2}\u{a0}%", 100.0 * count as f64 / places);
-    let mut said: Vec<String> = Part::ALL
+    let mut said: Vec<String> = Zone::ALL
         .iter()
         .map(|&part| {
             let count = report.materials.iter().map(|row| row.count(part)).sum();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
-use vectors::{Cycle as StimulusLine, read_stimulus};
+use vectors::read_stimulus;
 
 use super::bar::Bar;
 use super::configuration::Configuration;
@@ -64,22 +64,20 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let mut recorders = Recorders::new(trace, waves, name, datapath)?;
     let mut pipeline = Pipeline::new(datapath);
     let bar = Bar::counting(Some(stimulus.len() as u64), "cycles");
-    let counts =
-        run_stimulus(&mut pipeline, stimulus.iter().map(|line| Ok(cycle(line))), |cycle| {
+    let counts = run_stimulus(
+        &mut pipeline,
+        stimulus.iter().map(|line| Ok(StimulusCycle::from(line))),
+        |cycle| {
             bar.advance(1);
             recorders.cycle(cycle)
-        })?;
+        },
+    )?;
     bar.finish();
     settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
     if !recordings.commit()? {
         print(&counts, datapath.rank_count(), args.format, out)?;
     }
     Ok(Outcome::Good)
-}
-
-fn cycle(line: &StimulusLine) -> StimulusCycle {
-    let request = line.valid.then_some((line.case.address, line.case.x));
-    StimulusCycle { request, ready: line.ready, reset: line.reset }
 }
 
 /// What records a run.

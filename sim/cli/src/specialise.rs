@@ -20,11 +20,11 @@ use super::output;
 use super::scene::{Loaded, load};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
-use scenes::render::{Part, Pipeline, Samples, Which, samples};
+use scenes::render::{Samples, ScenePipeline, Which, Zone, samples};
 use scenes::scene::Scene;
 use scenes::specialise::{
-    self, Asked, Certificate, Demand, Display, Held, LeftOut, Proved, Row, demands, is_guarded,
-    left_out, pixels_outside, points, reduce, rows,
+    self, Asked, AskedRow, Certificate, Demand, Display, Held, LeftOut, Proved, demands,
+    is_guarded, left_out, pixels_outside, points, reduce, rows,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -139,7 +139,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 /// What was made for a scene.
 struct Made {
     demands: Vec<Demand>,
-    rows: Vec<Row>,
+    rows: Vec<AskedRow>,
     guarded: bool,
     specialised: Design,
     certificate: Certificate,
@@ -271,9 +271,10 @@ impl Made {
 
     /// What software leaves out before the hardware.
     fn software(&self, scene: &Scene) -> anyhow::Result<String> {
-        let answers = Pipeline::new(&self.specialised, scene)?.answers(&self.pixels, Which::Needed);
+        let answers =
+            ScenePipeline::new(&self.specialised, scene)?.answers(&self.pixels, Which::Needed);
         let all = answers.parts.len() as u64;
-        let away = answers.parts.iter().filter(|&&part| part == Part::FacesAway).count() as u64;
+        let away = answers.parts.iter().filter(|&&part| part == Zone::FacesAway).count() as u64;
         Ok(format!(
             "Software sends {} of the {all} samples of the picture: {away} face away, and {} lie below a cut where zero \
              answers. blysk render measures the time that this saves.",

@@ -17,7 +17,7 @@ use super::out::{Out, Outcome};
 use super::output;
 use super::stability_tables as tables;
 use super::table::{Format, write_folded};
-use analysis::report::stability::{Part as PartFiles, write};
+use analysis::report::stability::{PartFiles, write};
 use analysis::stability::coefficients::coefficient_losses;
 use analysis::stability::conditioning::conditioning;
 use analysis::stability::edges::edge_report;

@@ -5,6 +5,7 @@ use std::sync::{Arc, LazyLock};
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{self, Options, Tree, fontdb};
 
+use super::chart::Chart;
 use super::error::PlotError;
 
 /// The one font there is: a picture must not depend on what the machine has installed.
@@ -21,6 +22,21 @@ static FONTS: LazyLock<Arc<fontdb::Database>> = LazyLock::new(|| {
     fonts.set_sans_serif_family(FONT_NAME);
     Arc::new(fonts)
 });
+
+/// Pixels of a chart's PNG for each unit of its SVG.
+const CHART_SCALE: f32 = 2.0;
+
+impl Chart {
+    /// The chart as SVG text, and as PNG with twice as many pixels as it has units.
+    ///
+    /// # Errors
+    /// As [`to_svg`](Self::to_svg) and [`svg_to_png`].
+    pub fn to_svg_and_png(&self) -> Result<(String, Vec<u8>), PlotError> {
+        let svg = self.to_svg()?;
+        let png = svg_to_png(&svg, CHART_SCALE)?;
+        Ok((svg, png))
+    }
+}
 
 /// Draws an SVG as PNG with `scale` pixels to the SVG unit; 2 suits a screen, 4 suits print.
 ///

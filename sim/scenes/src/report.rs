@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use thiserror::Error;
+use vectors::output_text;
 use vectors::whole_file::{OutputError, OutputSet};
 
 use crate::render::{Cycles, Difference, MaterialFigures};
@@ -67,11 +68,7 @@ impl RenderReport {
     /// # Errors
     /// Never for what a rendering gives; the type says what the crate says.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
-        let mut csv = csv::Writer::from_writer(Vec::new());
-        for row in &self.materials {
-            csv.serialize(row)?;
-        }
-        csv.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+        output_text::csv(&self.materials)
     }
 
     /// `render.json`: everything.
@@ -79,9 +76,7 @@ impl RenderReport {
     /// # Errors
     /// Never for what a rendering gives; the type says what the crate says.
     pub fn json(&self) -> Result<String, serde_json::Error> {
-        let mut text = serde_json::to_string_pretty(self)?;
-        text.push('\n');
-        Ok(text)
+        output_text::json(self)
     }
 }
 

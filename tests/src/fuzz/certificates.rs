@@ -6,10 +6,10 @@
 
 use std::sync::atomic::AtomicU64;
 
-use analysis::approximation::{Region as Interval, approximation};
+use analysis::approximation::{Extent as Interval, approximation};
 use bounds::certify::certificate::{Certificate, Claim};
 use bounds::certify::check::check;
-use bounds::certify::claim::{ExponentClaim, Finding, Region};
+use bounds::certify::claim::{ExponentClaim, Finding, Stretch};
 use bounds::certify::hardware::{HardwareClaim, Worst};
 use hw_model::config::Config;
 use hw_model::datapath::Status;
@@ -89,7 +89,7 @@ fn demand_truth(claim: &Claim) {
         Claim::EveryExponent(claims) => {
             for claim in &claims.claims {
                 for n in [1.0, 1.5, 2.5, 4.0, 8.5, 64.0, 1e4] {
-                    let found = errors(claim.method, n, Region::Epicentre, claims.levels);
+                    let found = errors(claim.method, n, Stretch::Epicentre, claims.levels);
                     let bounds = [claim.absolute.upper, claim.relative.upper];
                     for (found, bound) in found.into_iter().zip(bounds) {
                         assert!(found <= within(bound), "{claim:?}: {found} at n = {n}");
@@ -106,11 +106,11 @@ fn within(bound: f64) -> f64 {
 }
 
 /// The absolute and the relative error of a method, in f64.
-fn errors(method: hw_model::fit::Method, n: f64, region: Region, levels: Levels) -> [f64; 2] {
+fn errors(method: hw_model::fit::Method, n: f64, region: Stretch, levels: Levels) -> [f64; 2] {
     let fit = fit(method, n, levels).expect("an exponent that was accepted");
     let interval = match region {
-        Region::Epicentre => Interval::epicentre(&fit),
-        Region::Tail => Interval::tail(&fit),
+        Stretch::Epicentre => Interval::epicentre(&fit),
+        Stretch::Tail => Interval::tail(&fit),
     };
     let found = approximation(&fit, n, interval);
     [found.absolute.error, found.relative.map_or(0.0, |peak| peak.error)]

@@ -24,10 +24,7 @@ pub fn stimulus(bytes: &[u8], place: &Place) -> Outcome {
     let Ok(cycles) = parse_stimulus(bytes, Path::new("in.csv"), design.rom(), input) else {
         return Outcome::Refused;
     };
-    let rows = cycles.iter().map(|line| {
-        let request = line.valid.then_some((line.case.address, line.case.x));
-        Ok::<_, ()>(StimulusCycle { request, ready: line.ready, reset: line.reset })
-    });
+    let rows = cycles.iter().map(|line| Ok::<_, ()>(StimulusCycle::from(line)));
     let counts =
         run(&mut Pipeline::new(design.datapath()), rows, |_| Ok(())).expect("nobody fails");
     assert!(

@@ -9,7 +9,7 @@ use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
-use scenes::render::{Pipeline, Which, samples};
+use scenes::render::{ScenePipeline, Which, samples};
 use scenes::scene::{Normals, Scene, triangles};
 use scenes::specialise::demands;
 use vectors::Strategy;
@@ -88,7 +88,7 @@ pub fn scene(bytes: &[u8], place: &Place) -> Outcome {
     for demand in demands(&scene) {
         assert!(demand.least <= demand.greatest, "{demand:?}");
     }
-    if let Ok(pipeline) = Pipeline::new(&place.design, &scene) {
+    if let Ok(pipeline) = ScenePipeline::new(&place.design, &scene) {
         let _ = pipeline.answers(&found, Which::Needed);
     }
     Outcome::Accepted

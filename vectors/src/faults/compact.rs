@@ -46,7 +46,7 @@ impl Workers for OneByOne {
 
 /// What became of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Verdict {
+pub struct FaultFate {
     /// The fault.
     pub fault: Fault,
     /// The first vector that kills it; none when no input does.
@@ -57,7 +57,7 @@ pub struct Verdict {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Compact {
     samples: Vec<Sample>,
-    verdicts: Vec<Verdict>,
+    verdicts: Vec<FaultFate>,
     lower_bound: u64,
     inputs: u64,
 }
@@ -86,7 +86,7 @@ impl Compact {
 
     /// Every fault: first those of each row, then those of the pipeline.
     #[must_use]
-    pub fn verdicts(&self) -> &[Verdict] {
+    pub fn verdicts(&self) -> &[FaultFate] {
         &self.verdicts
     }
 
@@ -112,7 +112,7 @@ impl Compact {
         for (bit, fault) in cover.faults.iter().enumerate() {
             let kills = |(_, mask): &(i64, Mask)| mask >> bit & 1 == 1;
             let killed_by = cover.chosen.iter().position(kills).map(|at| first + at as u64);
-            self.verdicts.push(Verdict { fault: *fault, killed_by });
+            self.verdicts.push(FaultFate { fault: *fault, killed_by });
         }
         self.samples.extend(cover.chosen.iter().map(|&(x, _)| Sample {
             case: Case::at(design.rom(), cover.address, x),
@@ -130,7 +130,7 @@ impl Compact {
         let found = hunt.exhaust(workers);
         self.extend(&mut hunt, &found);
         let verdicts = faults.iter().zip(&hunt.killed_by);
-        self.verdicts.extend(verdicts.map(|(&fault, &killed_by)| Verdict { fault, killed_by }));
+        self.verdicts.extend(verdicts.map(|(&fault, &killed_by)| FaultFate { fault, killed_by }));
     }
 
     /// Adds candidates while they kill what survives, each time the one that kills most.

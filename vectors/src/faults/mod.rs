@@ -25,7 +25,7 @@ mod list;
 mod rows;
 mod screen;
 
-pub use compact::{Compact, OneByOne, Verdict, Workers, exhaust};
+pub use compact::{Compact, FaultFate, OneByOne, Workers, exhaust};
 pub use evaluate::{Faulty, Model};
 pub use fault::{DataRegister, Defect, Fault, FieldFault, HANDSHAKE, Logic, RoundingLine};
 pub use list::{field_faults, pipeline_faults};

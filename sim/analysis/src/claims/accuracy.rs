@@ -5,7 +5,7 @@ use hw_model::fit::{Levels, Method, fit};
 use super::claim::{Claim, ClaimsError};
 use super::comparison::{Comparison, Sense};
 use super::proof::{self, Enclosed};
-use crate::approximation::{ApproximationError, Region, approximation};
+use crate::approximation::{ApproximationError, Extent, approximation};
 
 /// An error below this is that of evaluating in f64: for n = 1, 2 and 3 the cubic is x^n itself.
 const NOISE: f64 = 1e-14;
@@ -13,7 +13,7 @@ const NOISE: f64 = 1e-14;
 /// The error of a method on the epicentre.
 fn on_epicentre(method: Method, n: f64) -> Result<ApproximationError, ClaimsError> {
     let fit = fit(method, n, Levels::default())?;
-    Ok(approximation(&fit, n, Region::epicentre(&fit)))
+    Ok(approximation(&fit, n, Extent::epicentre(&fit)))
 }
 
 fn absolute(n: f64) -> Result<f64, ClaimsError> {
@@ -89,7 +89,7 @@ pub(super) fn claims() -> Result<[Claim; 4], ClaimsError> {
         sense: Sense::AtLeast,
         value: &|n| {
             let schlick = fit(Method::Schlick, n, Levels::default())?;
-            times(approximation(&schlick, n, Region::WHOLE).absolute.error, n)
+            times(approximation(&schlick, n, Extent::WHOLE).absolute.error, n)
         },
     };
     Ok([

@@ -9,7 +9,7 @@ use thiserror::Error;
 
 /// What became of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Judgement {
     /// True, for every exponent where it speaks of exponents.
     Holds,
     /// True up to this integer exponent, and false from the next one on.
@@ -24,7 +24,7 @@ pub enum Verdict {
     NoFigure,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for Judgement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Holds => f.write_str("holds"),
@@ -37,7 +37,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-impl Serialize for Verdict {
+impl Serialize for Judgement {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -75,7 +75,7 @@ pub struct Claim {
     /// exponents.
     pub fails_from: Option<u64>,
     /// What became of it.
-    pub verdict: Verdict,
+    pub verdict: Judgement,
     /// The command that shows it.
     pub command: String,
     /// The numbers.

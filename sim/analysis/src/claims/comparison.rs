@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::boundary::{Boundary, GREATEST, boundary, examined};
-use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Judgement, command};
 
 /// On which side of the limit a claim wants the number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,9 +78,9 @@ impl Comparison<'_> {
         // Fails at the first exponent that a method refuses: all that are looked at are within its range.
         let found = boundary(self.id, |n| self.at(n).is_ok_and(|value| self.holds(value)))?;
         let (verdict, exponents) = match found {
-            Boundary::Always => (Verdict::Holds, vec![self.worst()?]),
-            Boundary::Never => (Verdict::Fails, vec![1, GREATEST]),
-            Boundary::HoldsTo(last) => (Verdict::HoldsTo(last), vec![last, last + 1, GREATEST]),
+            Boundary::Always => (Judgement::Holds, vec![self.worst()?]),
+            Boundary::Never => (Judgement::Fails, vec![1, GREATEST]),
+            Boundary::HoldsTo(last) => (Judgement::HoldsTo(last), vec![last, last + 1, GREATEST]),
         };
         let evidence =
             exponents.into_iter().map(|n| self.evidence(n)).collect::<Result<Vec<_>, _>>()?;

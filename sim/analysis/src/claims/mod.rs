@@ -16,7 +16,7 @@ mod shape;
 mod tail;
 
 pub use boundary::{EXAMINED, GREATEST};
-pub use claim::{Claim, ClaimsError, Evidence, Verdict};
+pub use claim::{Claim, ClaimsError, Evidence, Judgement};
 
 /// Computes every claim, in the order of the paper.
 ///
@@ -41,12 +41,12 @@ mod tests {
     fn what_the_paper_claims_is_judged_as_the_numbers_say() {
         let claims = claims().unwrap();
         let verdict = |id: &str| claims.iter().find(|claim| claim.id == id).unwrap().verdict;
-        assert_eq!(verdict("absolute-error"), Verdict::Holds);
-        assert_eq!(verdict("relative-error"), Verdict::HoldsTo(114));
-        let Verdict::HoldsTo(n) = verdict("schlick-epicentre") else { panic!() };
+        assert_eq!(verdict("absolute-error"), Judgement::Holds);
+        assert_eq!(verdict("relative-error"), Judgement::HoldsTo(114));
+        let Judgement::HoldsTo(n) = verdict("schlick-epicentre") else { panic!() };
         assert!((120..128).contains(&n), "{n}");
         let ranges = ["tail-1-percent", "tail-3-percent", "tail-10-percent", "tail-ranges"];
-        assert_eq!(ranges.map(verdict), [3, 4, 3, 3].map(Verdict::HoldsTo));
+        assert_eq!(ranges.map(verdict), [3, 4, 3, 3].map(Judgement::HoldsTo));
         let mut ids: Vec<&str> = claims.iter().map(|claim| claim.id).collect();
         ids.sort_unstable();
         ids.dedup();
@@ -57,7 +57,7 @@ mod tests {
     fn every_verdict_has_its_numbers() {
         for claim in claims().unwrap() {
             assert!(!claim.evidence.is_empty(), "{}", claim.id);
-            let next = matches!(claim.verdict, Verdict::HoldsTo(_));
+            let next = matches!(claim.verdict, Judgement::HoldsTo(_));
             assert_eq!(claim.fails_from.is_some(), next, "{}", claim.id);
             for evidence in &claim.evidence {
                 assert!(evidence.value.is_finite(), "{}: {evidence:?}", claim.id);

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::{Add, Mul};
 
-use super::claim::{Claim, Evidence, Verdict, command};
+use super::claim::{Claim, Evidence, Judgement, command};
 
 /// Multiplications and additions done so far.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ pub(super) fn claims() -> [Claim; 1] {
         limit: limit.map(Into::into),
         unit: "",
     };
-    let verdict = if printed == [5, 2] { Verdict::Holds } else { Verdict::Fails };
+    let verdict = if printed == [5, 2] { Judgement::Holds } else { Judgement::Fails };
     [Claim {
         id: "operations",
         claim: "For each n three coefficients are enough, and hardware needs 5 multiplications and 2 additions",

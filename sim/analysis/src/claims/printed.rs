@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 use hw_model::fit::{Crossing, Levels, Method, crossing, fit};
 use hw_model::highlight::Power;
 
-use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Judgement, command};
 
 /// Where formulas are tried. From n = 4 on no cubic is x^n itself, and up to 64 the printed formulas keep
 /// ten digits.
@@ -68,13 +68,13 @@ impl Formula<'_> {
     fn judged(&self) -> Claim {
         let meant = self.meant.last();
         let verdict = match meant {
-            _ if self.printed.vanishes() => Verdict::Holds,
-            Some((_, remainders)) if remainders.vanishes() => Verdict::Misprint,
-            _ => Verdict::Fails,
+            _ if self.printed.vanishes() => Judgement::Holds,
+            Some((_, remainders)) if remainders.vanishes() => Judgement::Misprint,
+            _ => Judgement::Fails,
         };
         let exponents = format!("n = {} to {}", EXPONENTS.start(), EXPONENTS.end());
         let computed = match (verdict, meant) {
-            (Verdict::Holds, _) => {
+            (Judgement::Holds, _) => {
                 format!("off by {:.0e} at most for {exponents}", self.printed.greatest)
             }
             (_, Some((reading, remainders))) => format!(
@@ -92,7 +92,7 @@ impl Formula<'_> {
             claim: self.claim,
             source: self.source,
             computed,
-            holds_for: if verdict == Verdict::Holds { exponents } else { "-".to_owned() },
+            holds_for: if verdict == Judgement::Holds { exponents } else { "-".to_owned() },
             fails_from: None,
             verdict,
             command: command(self.id),
@@ -204,7 +204,7 @@ fn logarithm() -> Claim {
         computed: format!("q^n is off by {off:.1e}, {:.4} of the last of 16 bits", off * 32_768.0),
         holds_for: "every n".to_owned(),
         fails_from: None,
-        verdict: if off <= LIMIT { Verdict::Holds } else { Verdict::Fails },
+        verdict: if off <= LIMIT { Judgement::Holds } else { Judgement::Fails },
         command: command("logarithm"),
         evidence: vec![Evidence {
             what: "|q^n - 0.5|".to_owned(),
@@ -312,13 +312,13 @@ pub(super) fn rational() -> Result<[Claim; 2], ClaimsError> {
 mod tests {
     use super::*;
 
-    fn verdicts(claims: &[Claim]) -> Vec<(&str, Verdict)> {
+    fn verdicts(claims: &[Claim]) -> Vec<(&str, Judgement)> {
         claims.iter().map(|claim| (claim.id, claim.verdict)).collect()
     }
 
     #[test]
     fn what_is_right_and_what_is_misprinted() {
-        use Verdict::{Holds, Misprint};
+        use Judgement::{Holds, Misprint};
         let expected = [
             ("misprint-cosine", Misprint),
             ("hermite-coefficients", Holds),
@@ -365,7 +365,7 @@ mod tests {
         {
             let off = claim.evidence[0].value;
             match claim.verdict {
-                Verdict::Misprint => assert!(off > 0.01, "{}: {off}", claim.id),
+                Judgement::Misprint => assert!(off > 0.01, "{}: {off}", claim.id),
                 _ => assert!(off < 1e-6, "{}: {off}", claim.id),
             }
         }

@@ -6,9 +6,9 @@
 
 use hw_model::fit::{Levels, Method};
 
-use super::claim::{Claim, ClaimsError, Evidence, Verdict};
+use super::claim::{Claim, ClaimsError, Evidence, Judgement};
 use super::comparison::Comparison;
-use bounds::certify::claim::{ExponentClaim, Region};
+use bounds::certify::claim::{ExponentClaim, Stretch};
 use bounds::certify::search::{claim_every_exponent, claim_exponent};
 
 /// A number between two others.
@@ -20,7 +20,7 @@ pub(super) struct Enclosed {
 
 /// The proved errors of a method on its epicentre.
 pub(super) fn epicentre(method: Method, n: f64) -> Result<ExponentClaim, ClaimsError> {
-    Ok(claim_exponent(method, n, Region::Epicentre, Levels::default())?)
+    Ok(claim_exponent(method, n, Stretch::Epicentre, Levels::default())?)
 }
 
 /// Confirms that a claim holds at the last n and fails at the next.
@@ -29,7 +29,7 @@ pub(super) fn at_the_boundary(
     comparison: &Comparison<'_>,
     enclosure: impl Fn(f64) -> Result<Enclosed, ClaimsError>,
 ) -> Result<Claim, ClaimsError> {
-    let Verdict::HoldsTo(last) = claim.verdict else { return Ok(claim) };
+    let Judgement::HoldsTo(last) = claim.verdict else { return Ok(claim) };
     for (n, holds) in [(last as f64, true), (last as f64 + 1.0, false)] {
         let Enclosed { lower, upper } = enclosure(n)?;
         if [lower, upper].iter().any(|&end| comparison.holds(end) != holds) {
@@ -50,7 +50,7 @@ pub(super) fn at_the_boundary(
 
 /// Confirms, for every real n ≥ 1 at once, that the cubic's absolute error stays within `limit` per cent.
 pub(super) fn for_every_exponent(mut claim: Claim, limit: f64) -> Result<Claim, ClaimsError> {
-    let Verdict::Holds = claim.verdict else { return Ok(claim) };
+    let Judgement::Holds = claim.verdict else { return Ok(claim) };
     let upper = 100.0 * claim_every_exponent(Method::Hermite, Levels::default())?.absolute.upper;
     if upper > limit {
         return Err(ClaimsError::NotConfirmed { claim: claim.id, n: f64::INFINITY, holds: true });

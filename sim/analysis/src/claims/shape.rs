@@ -5,7 +5,7 @@ use hw_model::highlight::Cubic;
 use rayon::prelude::*;
 
 use super::boundary::{GREATEST, examined};
-use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Judgement, command};
 
 /// Steps of n in an interval of length 1 when fractional exponents are scanned.
 const STEPS: u32 = 1 << 12;
@@ -70,9 +70,9 @@ fn no_negative_zone() -> Result<Claim, ClaimsError> {
     let greatest = GREATEST as f64;
     let last = percent(Method::ThreePoint, levels, greatest)?;
     let verdict = match (integer >= 0.0, fraction >= 0.0) {
-        (true, true) => Verdict::Holds,
-        (true, false) => Verdict::HoldsForIntegers,
-        (false, _) => Verdict::Fails,
+        (true, true) => Judgement::Holds,
+        (true, false) => Judgement::HoldsForIntegers,
+        (false, _) => Judgement::Fails,
     };
     Ok(Claim {
         id: "negative-zone",
@@ -83,8 +83,8 @@ fn no_negative_zone() -> Result<Claim, ClaimsError> {
              {fraction:.3} % at n = {at_fraction:.3}"
         ),
         holds_for: match verdict {
-            Verdict::Holds => "every n that was tried".to_owned(),
-            Verdict::HoldsForIntegers => format!("every integer n; not n = {at_fraction:.3}"),
+            Judgement::Holds => "every n that was tried".to_owned(),
+            Judgement::HoldsForIntegers => format!("every integer n; not n = {at_fraction:.3}"),
             _ => format!("not n = {at_integer}"),
         },
         fails_from: None,
@@ -133,7 +133,11 @@ fn optimal() -> Result<Claim, ClaimsError> {
         ),
         holds_for: "integer n >= 3".to_owned(),
         fails_from: None,
-        verdict: if one_over(k)? == Levels::default() { Verdict::Holds } else { Verdict::Fails },
+        verdict: if one_over(k)? == Levels::default() {
+            Judgement::Holds
+        } else {
+            Judgement::Fails
+        },
         command: command("optimal-level"),
         evidence: vec![
             minimum(what(k), n, good, Some(0.0)),
@@ -189,7 +193,7 @@ fn extrema() -> Result<Claim, ClaimsError> {
         computed,
         holds_for: "-".to_owned(),
         fails_from: None,
-        verdict: if found.is_empty() { Verdict::Holds } else { Verdict::Fails },
+        verdict: if found.is_empty() { Judgement::Holds } else { Judgement::Fails },
         command: command("two-extrema"),
         evidence,
     })
@@ -232,7 +236,7 @@ fn negative() -> Result<Claim, ClaimsError> {
             .collect::<Vec<_>>()
             .join(", "),
         fails_from: None,
-        verdict: if holds { Verdict::Holds } else { Verdict::Fails },
+        verdict: if holds { Judgement::Holds } else { Judgement::Fails },
         command: command("negative-cubic"),
         evidence,
     })

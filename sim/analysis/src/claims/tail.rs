@@ -3,9 +3,9 @@
 use hw_model::fit::{Levels, Method, crossing, fit};
 
 use super::boundary::GREATEST;
-use super::claim::{Claim, ClaimsError, Evidence, Verdict, command};
+use super::claim::{Claim, ClaimsError, Evidence, Judgement, command};
 use super::comparison::{Comparison, Sense};
-use crate::approximation::{Region, approximation};
+use crate::approximation::{Extent, approximation};
 
 /// A range of the tail with what is claimed for it.
 struct Range {
@@ -84,7 +84,7 @@ fn all_ranges() -> Result<Claim, ClaimsError> {
 /// The greatest relative error of the rational tail where low ≤ x^n ≤ high.
 fn relative_between(n: f64, high: f64, low: f64) -> Result<f64, ClaimsError> {
     let tail = fit(Method::Rational, n, Levels::default())?;
-    let region = Region { s_low: crossing(n, high)?.s, s_high: crossing(n, low)?.s };
+    let region = Extent { s_low: crossing(n, high)?.s, s_high: crossing(n, low)?.s };
     // Neither end is x = 0.
     Ok(approximation(&tail, n, region).relative.map_or(f64::INFINITY, |peak| peak.error))
 }
@@ -94,7 +94,7 @@ fn composite() -> Result<Claim, ClaimsError> {
     let n = GREATEST as f64;
     let whole = |method| -> Result<f64, ClaimsError> {
         let fit = fit(method, n, Levels::default())?;
-        Ok(100.0 * approximation(&fit, n, Region::WHOLE).absolute.error)
+        Ok(100.0 * approximation(&fit, n, Extent::WHOLE).absolute.error)
     };
     let (composite, schlick) = (whole(Method::Composite)?, whole(Method::Schlick)?);
     let evidence = |what: &str, value| Evidence {
@@ -113,7 +113,7 @@ fn composite() -> Result<Claim, ClaimsError> {
         ),
         holds_for: "-".to_owned(),
         fails_from: None,
-        verdict: Verdict::NoFigure,
+        verdict: Judgement::NoFigure,
         command: command("composite"),
         evidence: vec![
             evidence("composite, greatest absolute error on [0, 1]", composite),

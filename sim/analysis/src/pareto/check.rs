@@ -7,12 +7,12 @@ use hw_model::highlight::{ExactPower, phong};
 use super::contender::{Contender, Work};
 use super::inputs::{Inputs, Samples};
 use super::table::stand;
-use super::{ParetoReport, Row};
+use super::{ContenderRow, ParetoReport};
 
 /// What [`differences`] cannot look at, in words: nothing where the table is of the inputs that are measured. A mean
 /// square is one of all inputs of the table, and so is the number of those.
 #[must_use]
-pub fn not_checked(kept: &[Row], inputs: &Inputs) -> Option<String> {
+pub fn not_checked(kept: &[ContenderRow], inputs: &Inputs) -> Option<String> {
     let every = kept.first().map_or(1, |row| row.every);
     (every != inputs.every).then(|| {
         format!(
@@ -26,12 +26,13 @@ pub fn not_checked(kept: &[Row], inputs: &Inputs) -> Option<String> {
 /// What does not hold of `kept`, in words; nothing if all does. `made` is of a sample of the same inputs.
 #[must_use]
 pub fn differences(
-    kept: &[Row],
+    kept: &[ContenderRow],
     made: &ParetoReport,
     contenders: &[Contender],
     inputs: &Inputs,
 ) -> Vec<String> {
-    let names = |rows: &[Row]| rows.iter().map(|row| row.contender.clone()).collect::<Vec<_>>();
+    let names =
+        |rows: &[ContenderRow]| rows.iter().map(|row| row.contender.clone()).collect::<Vec<_>>();
     let (had, has) = (names(kept), names(&made.contenders));
     if had != has {
         return vec![format!(
@@ -63,7 +64,7 @@ pub fn differences(
 }
 
 /// A table is of every so many x, the same for all.
-fn one_every(kept: &[Row]) -> Option<String> {
+fn one_every(kept: &[ContenderRow]) -> Option<String> {
     let every = kept.first()?.every;
     let other = kept.iter().find(|row| row.every != every || row.every == 0)?;
     Some(format!(
@@ -73,10 +74,10 @@ fn one_every(kept: &[Row]) -> Option<String> {
 }
 
 /// Who is on the fronts, and dominated by whom, follows from the other columns.
-fn fronts(kept: &[Row]) -> impl Iterator<Item = String> {
+fn fronts(kept: &[ContenderRow]) -> impl Iterator<Item = String> {
     let mut made = kept.to_vec();
     stand(&mut made);
-    let standing = |row: &Row| {
+    let standing = |row: &ContenderRow| {
         let said = |front: Option<bool>, by: &Option<String>| match (front, by) {
             (None, None) => "not compared".to_owned(),
             (Some(true), None) => "on the front".to_owned(),
@@ -99,7 +100,7 @@ fn fronts(kept: &[Row]) -> impl Iterator<Item = String> {
 }
 
 /// The roots of mean squares, where the table is of the same inputs.
-fn mean_squares(kept: &Row, made: &Row) -> impl Iterator<Item = String> {
+fn mean_squares(kept: &ContenderRow, made: &ContenderRow) -> impl Iterator<Item = String> {
     let same = |kept: Option<f64>, made: Option<f64>| match (kept, made) {
         (Some(kept), Some(made)) => (kept - made).abs() <= 1e-12 * made,
         (kept, made) => kept == made,
@@ -132,7 +133,7 @@ impl Costs {
     }
 }
 
-fn costs(row: &Row) -> Costs {
+fn costs(row: &ContenderRow) -> Costs {
     let or_none = |bits: Option<u64>| bits.map_or_else(|| "none".to_owned(), |b| b.to_string());
     Costs([
         ("kind", row.kind.clone()),
@@ -153,11 +154,11 @@ struct Place {
 }
 
 impl Place {
-    const fn epicentre(row: &Row) -> Self {
+    const fn epicentre(row: &ContenderRow) -> Self {
         Self { error: row.epicentre_worst, n: row.epicentre_worst_n, x: row.epicentre_worst_x }
     }
 
-    const fn whole(row: &Row) -> Self {
+    const fn whole(row: &ContenderRow) -> Self {
         Self { error: row.whole_worst, n: row.whole_worst_n, x: row.whole_worst_x }
     }
 
@@ -221,10 +222,13 @@ mod tests {
         let all = compare(&inputs(1), None, &[], &Quiet).unwrap();
         let part = compare(&inputs(7), None, &[], &Quiet).unwrap();
         let contenders = Contenders::new(&inputs(1)).unwrap().list;
-        let see = |kept: &[Row]| differences(kept, &part, &contenders, &inputs(7));
+        let see = |kept: &[ContenderRow]| differences(kept, &part, &contenders, &inputs(7));
         assert_eq!(see(&all.contenders), Vec::<String>::new());
         for (spoil, said) in [
-            ((|row| row.storage_bits += 1) as fn(&mut Row), "bits of table or ROM of the table: "),
+            (
+                (|row| row.storage_bits += 1) as fn(&mut ContenderRow),
+                "bits of table or ROM of the table: ",
+            ),
             (
                 |row| row.latency = Some(99),
                 "latency of the table: 99, now: none; use the table's own --exponents",
@@ -254,7 +258,8 @@ mod tests {
         assert_eq!(not_checked(&all.contenders, &inputs(1)), None);
         assert!(not_checked(&all.contenders, &inputs(7)).unwrap().contains("whole_rms"));
         for spoil in [
-            (|row| row.epicentre_rms = row.epicentre_rms.map(|rms| rms * 1.001)) as fn(&mut Row),
+            (|row| row.epicentre_rms = row.epicentre_rms.map(|rms| rms * 1.001))
+                as fn(&mut ContenderRow),
             |row| row.whole_rms = row.whole_rms.map(|rms| rms * (1.0 + 1e-9)),
             |row| row.whole_rms = None,
         ] {

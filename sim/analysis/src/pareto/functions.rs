@@ -42,7 +42,7 @@ real!(f32, 32);
 real!(f64, 64);
 
 /// A function of x with its constants.
-pub(super) trait Row<T> {
+pub(super) trait ContenderRow<T> {
     fn at(&self, x: T) -> T;
 }
 
@@ -73,7 +73,7 @@ impl<T: Real> CubicRow<T> {
     }
 }
 
-impl<T: Real> Row<T> for CubicRow<T> {
+impl<T: Real> ContenderRow<T> for CubicRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         let s = T::one() - x;
@@ -95,7 +95,7 @@ impl<T: Real> RationalRow<T> {
     }
 }
 
-impl<T: Real> Row<T> for RationalRow<T> {
+impl<T: Real> ContenderRow<T> for RationalRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         let denominator = self.at_one + self.b * (T::one() - x);
@@ -111,7 +111,7 @@ pub struct CompositeRow<T> {
     pub(super) tail: RationalRow<T>,
 }
 
-impl<T: Real> Row<T> for CompositeRow<T> {
+impl<T: Real> ContenderRow<T> for CompositeRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         let s = T::one() - x;
@@ -144,7 +144,7 @@ impl<T: Real> SegmentsRow<T> {
     }
 }
 
-impl<T: Real> Row<T> for SegmentsRow<T> {
+impl<T: Real> ContenderRow<T> for SegmentsRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         let s = T::one() - x;
@@ -163,7 +163,7 @@ impl<T: Real> Row<T> for SegmentsRow<T> {
 #[derive(Debug, Clone, Copy)]
 pub struct SchlickRow<T>(pub(super) T);
 
-impl<T: Real> Row<T> for SchlickRow<T> {
+impl<T: Real> ContenderRow<T> for SchlickRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         x / (self.0 - self.0 * x + x)
@@ -174,7 +174,7 @@ impl<T: Real> Row<T> for SchlickRow<T> {
 #[derive(Debug, Clone, Copy)]
 pub struct PowfRow<T>(pub(super) T);
 
-impl<T: Real> Row<T> for PowfRow<T> {
+impl<T: Real> ContenderRow<T> for PowfRow<T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         x.powf(self.0)
@@ -184,7 +184,7 @@ impl<T: Real> Row<T> for PowfRow<T> {
 /// Straight lines between the values of one exponent.
 pub(super) struct LinearRow<'a, T>(pub(super) &'a [T]);
 
-impl<T: Real> Row<T> for LinearRow<'_, T> {
+impl<T: Real> ContenderRow<T> for LinearRow<'_, T> {
     #[inline(always)]
     fn at(&self, x: T) -> T {
         let Some(last) = self.0.len().checked_sub(2) else { return T::zero() };

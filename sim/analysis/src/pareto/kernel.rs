@@ -6,7 +6,8 @@ use hw_model::fit::{Curve, Fit};
 use multiversion::multiversion;
 
 use super::functions::{
-    CompositeRow, CubicRow, LinearRow, PowfRow, RationalRow, Real, Row, SchlickRow, SegmentsRow,
+    CompositeRow, ContenderRow, CubicRow, LinearRow, PowfRow, RationalRow, Real, SchlickRow,
+    SegmentsRow,
 };
 
 /// Samples that go through the lines together.
@@ -154,7 +155,7 @@ impl<T: Real> Kernel<T> {
 }
 
 #[inline(always)]
-fn one<T: Real>(row: &impl Row<T>, xs: &[T], out: &mut [T]) {
+fn one<T: Real>(row: &impl ContenderRow<T>, xs: &[T], out: &mut [T]) {
     for (&x, out) in xs.iter().zip(out) {
         *out = row.at(x);
     }
@@ -162,7 +163,12 @@ fn one<T: Real>(row: &impl Row<T>, xs: &[T], out: &mut [T]) {
 
 /// The rows are fetched first, some at a time, so that what follows is a plain loop.
 #[inline(always)]
-fn many<T: Real, R: Row<T> + Copy>(rows: &[R], addresses: &[u32], xs: &[T], out: &mut [T]) {
+fn many<T: Real, R: ContenderRow<T> + Copy>(
+    rows: &[R],
+    addresses: &[u32],
+    xs: &[T],
+    out: &mut [T],
+) {
     let chunks = addresses.chunks(LANES).zip(xs.chunks(LANES)).zip(out.chunks_mut(LANES));
     for ((addresses, xs), out) in chunks {
         let mut fetched = [rows[0]; LANES];

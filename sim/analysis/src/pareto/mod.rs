@@ -34,7 +34,7 @@ use self::synthesis::Synthesis;
 use self::timing::TimingError;
 use vectors::progress::Progress;
 
-pub use self::table::{ParetoReport, Row, TimingReport, TimingRow};
+pub use self::table::{ContenderRow, ParetoReport, TimingReport, TimingRow};
 
 /// Why there is no comparison.
 #[derive(Debug, Error)]

@@ -12,7 +12,7 @@ use crate::hardware_cost::HardwareCost;
 
 /// One contender: a line of `pareto.csv`. Errors are fractions of full intensity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Row {
+pub struct ContenderRow {
     /// Its name.
     pub contender: String,
     /// `f32` or `f64` on a processor, or `hardware`.
@@ -131,7 +131,7 @@ pub struct ParetoReport {
     /// Who does not take part, and why.
     pub left_out: Vec<String>,
     /// One for each contender.
-    pub contenders: Vec<Row>,
+    pub contenders: Vec<ContenderRow>,
     /// What was synthesised.
     pub synthesis: Vec<Synthesis>,
     /// Run times, where they were measured.
@@ -158,17 +158,21 @@ fn worst(errors: &Errors) -> Option<f64> {
 }
 
 /// The lines of `pareto.csv`.
-pub(super) fn rows(list: &[Contender], errors: &[ContenderErrors], inputs: &Inputs) -> Vec<Row> {
-    let mut rows: Vec<Row> =
+pub(super) fn rows(
+    list: &[Contender],
+    errors: &[ContenderErrors],
+    inputs: &Inputs,
+) -> Vec<ContenderRow> {
+    let mut rows: Vec<ContenderRow> =
         list.iter().zip(errors).map(|(contender, errors)| row(contender, errors, inputs)).collect();
     stand(&mut rows);
     rows
 }
 
 /// Fills in who is on the fronts of hardware, which follows from the other columns.
-pub(super) fn stand(rows: &mut [Row]) {
+pub(super) fn stand(rows: &mut [ContenderRow]) {
     let names: Vec<String> = rows.iter().map(|row| row.contender.clone()).collect();
-    let standing = |error: fn(&Row) -> Option<f64>| {
+    let standing = |error: fn(&ContenderRow) -> Option<f64>| {
         let points: Vec<_> = rows.iter().map(|row| point(row, error(row))).collect();
         standings(&names, &points)
     };
@@ -181,14 +185,14 @@ pub(super) fn stand(rows: &mut [Row]) {
 }
 
 /// What hardware is compared by, the error last; none for a processor.
-fn point(row: &Row, error: Option<f64>) -> Option<[f64; 5]> {
+fn point(row: &ContenderRow, error: Option<f64>) -> Option<[f64; 5]> {
     let bits = [row.multiplier_bits?, row.divider_bits?, row.storage_bits, row.latency?];
     let [multipliers, divider, rom, latency] = bits.map(|bits| bits as f64);
     Some([multipliers, divider, rom, latency, error?])
 }
 
 /// A line without its standings.
-fn row(contender: &Contender, errors: &ContenderErrors, inputs: &Inputs) -> Row {
+fn row(contender: &Contender, errors: &ContenderErrors, inputs: &Inputs) -> ContenderRow {
     let ContenderErrors { epicentre, whole } = errors;
     let cost = contender.engine.cost();
     let cost = cost.as_ref();
@@ -199,7 +203,7 @@ fn row(contender: &Contender, errors: &ContenderErrors, inputs: &Inputs) -> Row 
         let all: Vec<String> = cost.multipliers.iter().map(ToString::to_string).collect();
         all.join(" ")
     };
-    Row {
+    ContenderRow {
         contender: contender.name.clone(),
         kind: contender.engine.kind().to_owned(),
         every: inputs.every,

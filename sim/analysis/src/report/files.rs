@@ -1,12 +1,11 @@
 //! `error_vs_n.csv`, the same as JSON, and the plots.
 
 use hw_model::design::Design;
-use thiserror::Error;
-use vectors::whole_file::{OutputError, OutputSet};
+use vectors::whole_file::OutputSet;
 
 use super::figures;
+use super::written::{self, FilesError};
 use crate::error_report::ErrorReport;
-use plot::{Chart, PlotError, svg_to_png};
 
 /// The tables a report writes.
 pub const TABLES: [&str; 2] = ["error_vs_n.csv", "error_vs_n.json"];
@@ -37,32 +36,6 @@ pub const COLUMNS: [&str; 13] = [
     "full_range_holds",
 ];
 
-/// Pixels of a PNG for each unit of its SVG.
-const PNG_SCALE: f32 = 2.0;
-
-/// Why a report was not written.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum FilesError {
-    /// A file.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// A row that does not become CSV.
-    #[error("error_vs_n.csv: {0}")]
-    Csv(#[from] csv::Error),
-    /// A report that does not become JSON.
-    #[error("error_vs_n.json: {0}")]
-    Json(#[from] serde_json::Error),
-    /// A picture.
-    #[error("{name}: {source}")]
-    Plot {
-        /// The picture.
-        name: &'static str,
-        /// What is wrong.
-        source: PlotError,
-    },
-}
-
 /// Adds every file of a report to `set`. `curves` is an exponent of the ROM, for the plot of curves.
 ///
 /// # Errors
@@ -74,32 +47,14 @@ pub fn write(
     curves: f64,
 ) -> Result<(), FilesError> {
     let [csv, json] = TABLES;
-    set.write(csv, rows_as_csv(report)?)?;
-    let mut text = serde_json::to_string_pretty(report)?;
-    text.push('\n');
-    set.write(json, text)?;
+    set.write(csv, written::table(csv, &report.rows)?)?;
+    set.write(json, written::json(json, report)?)?;
     let charts =
         [figures::epicentre(report), figures::full_range(report), figures::curves(design, curves)];
     for (name, chart) in PLOTS.into_iter().zip(charts) {
-        picture(set, name, &chart)?;
+        written::picture(set, name, &chart)?;
     }
     Ok(())
-}
-
-fn picture(set: &mut OutputSet, name: &'static str, chart: &Chart) -> Result<(), FilesError> {
-    let plot = |source| FilesError::Plot { name, source };
-    let svg = chart.to_svg().map_err(plot)?;
-    set.write(&format!("{name}.png"), svg_to_png(&svg, PNG_SCALE).map_err(plot)?)?;
-    set.write(&format!("{name}.svg"), svg)?;
-    Ok(())
-}
-
-fn rows_as_csv(report: &ErrorReport) -> Result<Vec<u8>, csv::Error> {
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    for row in &report.rows {
-        csv.serialize(row)?;
-    }
-    csv.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }
 
 #[cfg(test)]
@@ -124,9 +79,7 @@ mod tests {
             holds: true,
             full_range_holds: true,
         };
-        let mut csv = csv::Writer::from_writer(Vec::new());
-        csv.serialize(row).unwrap();
-        let text = String::from_utf8(csv.into_inner().unwrap()).unwrap();
+        let text = String::from_utf8(written::table("error_vs_n.csv", &[row]).unwrap()).unwrap();
         assert_eq!(text.lines().next().unwrap(), COLUMNS.join(","));
     }
 }

@@ -1,13 +1,11 @@
 //! `pareto.csv`, `pareto_timing.csv`, both as JSON, and the plots. What depends on the machine stands in
 //! files and fields of its own.
 
-use serde::Serialize;
-use thiserror::Error;
-use vectors::whole_file::{OutputError, OutputSet};
+use vectors::whole_file::OutputSet;
 
 use super::pareto_figures::figures;
-use crate::pareto::{ParetoReport, Row};
-use plot::{PlotError, svg_to_png};
+use super::written::{self, FilesError};
+use crate::pareto::{ContenderRow, ParetoReport};
 
 /// The table that is the same run after run.
 pub const TABLE: &str = "pareto.csv";
@@ -19,42 +17,11 @@ pub const JSON: &str = "pareto.json";
 /// The tables, and the same as JSON.
 pub const TABLES: [&str; 3] = [TABLE, TIMING_TABLE, JSON];
 
-/// Pixels of a PNG for each unit of its SVG.
-const PNG_SCALE: f32 = 2.0;
-
-/// Why a comparison was not written.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum ParetoFilesError {
-    /// A file.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// A table that does not become CSV, or is none.
-    #[error("{name}: {source}")]
-    Csv {
-        /// The table.
-        name: &'static str,
-        /// What is wrong.
-        source: csv::Error,
-    },
-    /// A comparison that does not become JSON.
-    #[error("{JSON}: {0}")]
-    Json(#[from] serde_json::Error),
-    /// A picture.
-    #[error("{name}: {source}")]
-    Plot {
-        /// The picture.
-        name: &'static str,
-        /// What is wrong.
-        source: PlotError,
-    },
-}
-
 /// Adds every file to `set`, and returns their names, a picture's without its end.
 ///
 /// # Errors
 /// When a file cannot be written or a picture not be drawn.
-pub fn write(set: &mut OutputSet, report: &ParetoReport) -> Result<Vec<String>, ParetoFilesError> {
+pub fn write(set: &mut OutputSet, report: &ParetoReport) -> Result<Vec<String>, FilesError> {
     let mut names = vec![TABLE.to_owned()];
     set.write(TABLE, table(report)?)?;
     match timing_table(report)? {
@@ -68,10 +35,7 @@ pub fn write(set: &mut OutputSet, report: &ParetoReport) -> Result<Vec<String>, 
     set.write(JSON, json(report)?)?;
     names.push(JSON.to_owned());
     for (name, chart) in figures(report) {
-        let plot = |source| ParetoFilesError::Plot { name, source };
-        let svg = chart.to_svg().map_err(plot)?;
-        set.write(&format!("{name}.png"), svg_to_png(&svg, PNG_SCALE).map_err(plot)?)?;
-        set.write(&format!("{name}.svg"), svg)?;
+        written::picture(set, name, &chart)?;
         names.push(name.to_owned());
     }
     Ok(names)
@@ -81,42 +45,31 @@ pub fn write(set: &mut OutputSet, report: &ParetoReport) -> Result<Vec<String>, 
 ///
 /// # Errors
 /// When a row does not become CSV.
-pub fn table(report: &ParetoReport) -> Result<Vec<u8>, ParetoFilesError> {
-    csv(TABLE, &report.contenders)
+pub fn table(report: &ParetoReport) -> Result<Vec<u8>, FilesError> {
+    written::table(TABLE, &report.contenders)
 }
 
 /// `pareto_timing.csv`, where times were measured.
 ///
 /// # Errors
 /// When a row does not become CSV.
-pub fn timing_table(report: &ParetoReport) -> Result<Option<Vec<u8>>, ParetoFilesError> {
-    report.timing.as_ref().map(|timing| csv(TIMING_TABLE, &timing.rows)).transpose()
+pub fn timing_table(report: &ParetoReport) -> Result<Option<Vec<u8>>, FilesError> {
+    report.timing.as_ref().map(|timing| written::table(TIMING_TABLE, &timing.rows)).transpose()
 }
 
 /// Everything as JSON.
 ///
 /// # Errors
 /// When it does not become JSON.
-pub fn json(report: &ParetoReport) -> Result<String, ParetoFilesError> {
-    let mut text = serde_json::to_string_pretty(report)?;
-    text.push('\n');
-    Ok(text)
+pub fn json(report: &ParetoReport) -> Result<String, FilesError> {
+    written::json(JSON, report)
 }
 
 /// Reads a `pareto.csv` back.
 ///
 /// # Errors
 /// When it is none.
-pub fn read(text: &str) -> Result<Vec<Row>, ParetoFilesError> {
-    let named = |source| ParetoFilesError::Csv { name: TABLE, source };
+pub fn read(text: &str) -> Result<Vec<ContenderRow>, FilesError> {
+    let named = |cause| FilesError::Csv { name: TABLE.to_owned(), cause };
     csv::Reader::from_reader(text.as_bytes()).deserialize().collect::<Result<_, _>>().map_err(named)
-}
-
-fn csv(name: &'static str, rows: &[impl Serialize]) -> Result<Vec<u8>, ParetoFilesError> {
-    let named = |source| ParetoFilesError::Csv { name, source };
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        csv.serialize(row).map_err(named)?;
-    }
-    csv.into_inner().map_err(|error| named(csv::Error::from(error.into_error())))
 }

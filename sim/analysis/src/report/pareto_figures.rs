@@ -1,7 +1,7 @@
 //! The plots of work against precision: each contender a point, the non-dominated ones joined by steps.
 
 use crate::pareto::front::dominators;
-use crate::pareto::{ParetoReport, Row, TimingRow};
+use crate::pareto::{ContenderRow, ParetoReport, TimingRow};
 use plot::{Axis, Chart, Kind, Mark, Series, Shape, Size, Spot};
 
 /// The least error that is drawn at its place. What is smaller stands at the foot with its value.
@@ -18,10 +18,10 @@ struct Picture<'a> {
 }
 
 /// The error of a contender in a region.
-type ErrorOf = fn(&Row) -> Option<f64>;
+type ErrorOf = fn(&ContenderRow) -> Option<f64>;
 
 struct Point<'a> {
-    row: &'a Row,
+    row: &'a ContenderRow,
     cost: f64,
     error: f64,
 }
@@ -29,8 +29,8 @@ struct Point<'a> {
 /// The pictures with their names, without those that would have nothing to show.
 #[must_use]
 pub fn figures(report: &ParetoReport) -> Vec<(&'static str, Chart)> {
-    let regions: [(Region, ErrorOf); 2] =
-        [(Region::Epicentre, |row| row.epicentre_worst), (Region::Whole, |row| row.whole_worst)];
+    let regions: [(Area, ErrorOf); 2] =
+        [(Area::Epicentre, |row| row.epicentre_worst), (Area::Whole, |row| row.whole_worst)];
     let mut charts = Vec::new();
     for (region, error) in regions {
         for picture in pictures(report, region, error) {
@@ -43,12 +43,12 @@ pub fn figures(report: &ParetoReport) -> Vec<(&'static str, Chart)> {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Region {
+enum Area {
     Epicentre,
     Whole,
 }
 
-impl Region {
+impl Area {
     const fn choose(self, epicentre: &'static str, whole: &'static str) -> &'static str {
         match self {
             Self::Epicentre => epicentre,
@@ -57,14 +57,14 @@ impl Region {
     }
 }
 
-fn pictures(report: &ParetoReport, region: Region, error: ErrorOf) -> Vec<Picture<'_>> {
-    let points = |cost: &dyn Fn(usize, &Row) -> Option<f64>| {
+fn pictures(report: &ParetoReport, region: Area, error: ErrorOf) -> Vec<Picture<'_>> {
+    let points = |cost: &dyn Fn(usize, &ContenderRow) -> Option<f64>| {
         let rows = report.contenders.iter().enumerate();
         rows.filter_map(|(at, row)| Some(Point { row, cost: cost(at, row)?, error: error(row)? }))
             .collect()
     };
     let timed = |of: fn(&TimingRow) -> Option<f64>| {
-        move |at: usize, _: &Row| of(report.timing.as_ref()?.rows.get(at)?)
+        move |at: usize, _: &ContenderRow| of(report.timing.as_ref()?.rows.get(at)?)
     };
     vec![
         Picture {
@@ -98,7 +98,7 @@ fn pictures(report: &ParetoReport, region: Region, error: ErrorOf) -> Vec<Pictur
     ]
 }
 
-fn chart(report: &ParetoReport, region: Region, picture: &Picture<'_>) -> Chart {
+fn chart(report: &ParetoReport, region: Area, picture: &Picture<'_>) -> Chart {
     let error = region
         .choose("greatest error on the epicentre (xⁿ ≥ 1/2)", "greatest error on all of [0, 1]");
     let drawn = |point: &Point<'_>| (point.cost, point.error.max(LEAST_DRAWN));
@@ -171,7 +171,7 @@ fn kinds(count: usize) -> Vec<Kind> {
     kinds
 }
 
-fn kind(picture: &Picture<'_>, row: &Row) -> usize {
+fn kind(picture: &Picture<'_>, row: &ContenderRow) -> usize {
     let name = row.contender.as_str();
     match () {
         () if picture.kinds == 1 => 0,

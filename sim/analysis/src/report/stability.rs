@@ -3,8 +3,9 @@
 use hw_model::config::Form;
 use hw_model::fit::Method;
 use serde::Serialize;
-use thiserror::Error;
-use vectors::whole_file::{OutputError, OutputSet};
+use vectors::whole_file::OutputSet;
+
+use super::written::{self, FilesError};
 
 use crate::stability::coefficients::{
     ALL_DIGITS, CoefficientLosses, CoefficientWay, HALF_DIGITS, Set,
@@ -13,10 +14,7 @@ use crate::stability::conditioning::{Condition, Conditioning};
 use crate::stability::edges::{Edge, EdgeReport};
 use crate::stability::reference::{Function, ReferenceReport};
 use crate::stability::seams::{SeamReport, SeamRow};
-use plot::{Axis, Chart, Mark, PlotError, ReferenceLine, Series, svg_to_png};
-
-/// Pixels of a PNG for each unit of its SVG.
-const PNG_SCALE: f32 = 2.0;
+use plot::{Axis, Chart, Mark, ReferenceLine, Series};
 
 /// The least value that is drawn on a logarithmic axis.
 const LEAST_DRAWN: f64 = 1e-6;
@@ -24,44 +22,11 @@ const LEAST_DRAWN: f64 = 1e-6;
 /// The greatest exponent of the plots of digits: more decades than these have no room for their names.
 const GREATEST_DRAWN: f64 = 1e9;
 
-/// Why a part was not written.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum StabilityFilesError {
-    /// A file.
-    #[error(transparent)]
-    Output(#[from] OutputError),
-    /// A row that does not become CSV.
-    #[error("{name}.csv: {cause}")]
-    Csv {
-        /// The table.
-        name: &'static str,
-        /// What is wrong.
-        cause: csv::Error,
-    },
-    /// A part that does not become JSON.
-    #[error("{name}.json: {cause}")]
-    Json {
-        /// The part.
-        name: &'static str,
-        /// What is wrong.
-        cause: serde_json::Error,
-    },
-    /// A picture.
-    #[error("{name}: {cause}")]
-    Plot {
-        /// The picture.
-        name: &'static str,
-        /// What is wrong.
-        cause: PlotError,
-    },
-}
-
 /// A table as CSV, under its name.
 pub type NamedTable = (&'static str, Vec<u8>);
 
 /// A part of the stability report.
-pub trait Part: Serialize {
+pub trait PartFiles: Serialize {
     /// Its name, and that of its first table.
     const NAME: &'static str;
 
@@ -69,7 +34,7 @@ pub trait Part: Serialize {
     ///
     /// # Errors
     /// When a row does not become CSV.
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError>;
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError>;
 
     /// Its pictures, without those that would have nothing to show.
     fn charts(&self) -> Vec<(&'static str, Chart)>;
@@ -78,12 +43,8 @@ pub trait Part: Serialize {
     ///
     /// # Errors
     /// When it does not become JSON.
-    fn json(&self) -> Result<String, StabilityFilesError> {
-        let text = serde_json::to_string_pretty(self);
-        let mut text =
-            text.map_err(|cause| StabilityFilesError::Json { name: Self::NAME, cause })?;
-        text.push('\n');
-        Ok(text)
+    fn json(&self) -> Result<String, FilesError> {
+        written::json(&format!("{}.json", Self::NAME), self)
     }
 }
 
@@ -91,7 +52,7 @@ pub trait Part: Serialize {
 ///
 /// # Errors
 /// When a file cannot be written or a chart cannot be drawn.
-pub fn write<P: Part>(set: &mut OutputSet, part: &P) -> Result<Vec<String>, StabilityFilesError> {
+pub fn write<P: PartFiles>(set: &mut OutputSet, part: &P) -> Result<Vec<String>, FilesError> {
     let mut names = Vec::new();
     for (name, csv) in part.tables()? {
         let name = format!("{name}.csv");
@@ -102,23 +63,14 @@ pub fn write<P: Part>(set: &mut OutputSet, part: &P) -> Result<Vec<String>, Stab
     set.write(&name, part.json()?)?;
     names.push(name);
     for (name, chart) in part.charts() {
-        let plot = |cause| StabilityFilesError::Plot { name, cause };
-        let svg = chart.to_svg().map_err(plot)?;
-        set.write(&format!("{name}.png"), svg_to_png(&svg, PNG_SCALE).map_err(plot)?)?;
-        set.write(&format!("{name}.svg"), svg)?;
+        written::picture(set, name, &chart)?;
         names.push(name.to_owned());
     }
     Ok(names)
 }
 
-fn table<T: Serialize>(name: &'static str, rows: &[T]) -> Result<NamedTable, StabilityFilesError> {
-    let error = |cause| StabilityFilesError::Csv { name, cause };
-    let mut csv = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        csv.serialize(row).map_err(error)?;
-    }
-    let bytes = csv.into_inner().map_err(|cause| error(cause.into_error().into()))?;
-    Ok((name, bytes))
+fn table<T: Serialize>(name: &'static str, rows: &[T]) -> Result<NamedTable, FilesError> {
+    Ok((name, written::table(&format!("{name}.csv"), rows)?))
 }
 
 /// A chart against n; series without points are left out.
@@ -141,10 +93,10 @@ fn drawable(charts: Vec<(&'static str, Chart)>) -> Vec<(&'static str, Chart)> {
     charts.into_iter().filter(|(_, chart)| !chart.series.is_empty()).collect()
 }
 
-impl Part for CoefficientLosses {
+impl PartFiles for CoefficientLosses {
     const NAME: &'static str = "coefficients";
 
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError> {
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError> {
         Ok(vec![
             table(Self::NAME, &self.rows)?,
             table("coefficients_thresholds", &self.thresholds)?,
@@ -191,10 +143,10 @@ const fn way_label(way: CoefficientWay) -> &'static str {
     }
 }
 
-impl Part for Conditioning {
+impl PartFiles for Conditioning {
     const NAME: &'static str = "conditioning";
 
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError> {
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError> {
         Ok(vec![table(Self::NAME, &self.conditions)?, table("conditioning_widths", &self.widths)?])
     }
 
@@ -243,10 +195,10 @@ fn widths(report: &Conditioning) -> Chart {
     chart
 }
 
-impl Part for EdgeReport {
+impl PartFiles for EdgeReport {
     const NAME: &'static str = "edges";
 
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError> {
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError> {
         Ok(vec![
             table(Self::NAME, &self.rows)?,
             table("edges_variants", &self.variants)?,
@@ -288,10 +240,10 @@ impl Part for EdgeReport {
     }
 }
 
-impl Part for SeamReport {
+impl PartFiles for SeamReport {
     const NAME: &'static str = "seams";
 
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError> {
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError> {
         Ok(vec![table(Self::NAME, &self.rows)?, table("seams_hand_overs", &self.hand_overs)?])
     }
 
@@ -318,10 +270,10 @@ impl Part for SeamReport {
     }
 }
 
-impl Part for ReferenceReport {
+impl PartFiles for ReferenceReport {
     const NAME: &'static str = "reference";
 
-    fn tables(&self) -> Result<Vec<NamedTable>, StabilityFilesError> {
+    fn tables(&self) -> Result<Vec<NamedTable>, FilesError> {
         Ok(vec![table(Self::NAME, &self.rows)?, table("reference_totals", &self.totals)?])
     }
 

@@ -37,7 +37,7 @@ pub use witness::{Breaks, Fewer, Witness};
 
 /// What became of a candidate.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
+pub enum CandidateFate {
     /// Its real error is too great.
     TooFar,
     /// No widths keep the error, for this reason.
@@ -58,7 +58,7 @@ pub struct Considered {
     /// Its error in real numbers.
     pub real: RealError,
     /// What became of it.
-    pub verdict: Verdict,
+    pub verdict: CandidateFate,
 }
 
 /// The result.
@@ -113,15 +113,15 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
         .flat_map(|(config, real)| prove(request, &config, real))
         .collect();
     built.sort_by_key(|(considered, _)| match &considered.verdict {
-        Verdict::Proved(hardware) => (0, Some(*hardware)),
-        Verdict::Refused(_) => (1, None),
+        CandidateFate::Proved(hardware) => (0, Some(*hardware)),
+        CandidateFate::Refused(_) => (1, None),
         _ => (2, None),
     });
     let finals = finals(request, &built, &least, progress)?;
     let mut best: Option<(usize, State)> = None;
     for (index, (_, found)) in finals.iter().enumerate() {
         let Some((state, _)) = found else { continue };
-        built[index].0.verdict = Verdict::Narrowed(state.hardware);
+        built[index].0.verdict = CandidateFate::Narrowed(state.hardware);
         if best.is_none_or(|(_, best)| state.hardware < best.hardware) {
             best = Some((index, *state));
         }
@@ -170,7 +170,7 @@ fn prove(request: &Request, config: &Config, real: RealError) -> Vec<(Considered
         |rounding, verdict| Considered { config: config.clone(), rounding, real, verdict };
     let left = request.error - real.answered;
     if real.whole > request.error || left <= 0.0 {
-        return vec![(considered(None, Verdict::TooFar), None)];
+        return vec![(considered(None, CandidateFate::TooFar), None)];
     }
     let error_budget_ulp = (PROVED * left / request.output.ulp()).min(NO_BUDGET);
     let mut first: Option<Design> = None;
@@ -188,10 +188,13 @@ fn prove(request: &Request, config: &Config, real: RealError) -> Vec<(Considered
                 let formats = of_design(&design);
                 let hardware = Hardware::of(&design, &formats);
                 first.get_or_insert_with(|| design.clone());
-                all.push((considered(Some(rounding), Verdict::Proved(hardware)), Some(design)));
+                all.push((
+                    considered(Some(rounding), CandidateFate::Proved(hardware)),
+                    Some(design),
+                ));
             }
             Err(refusal) => {
-                let verdict = Verdict::Refused(refusal.to_string());
+                let verdict = CandidateFate::Refused(refusal.to_string());
                 all.push((considered(Some(rounding), verdict), None));
             }
         }
@@ -228,7 +231,7 @@ fn nothing(request: &Request, built: Vec<(Considered, Option<Design>)>) -> Sizin
     let nearest = nearest.min_by(|a, b| a.real.whole.total_cmp(&b.real.whole));
     let (name, real, why) = nearest.map_or((String::new(), (0.0, 1.0), String::new()), |nearest| {
         let why = match nearest.verdict {
-            Verdict::Refused(why) => format!("in real numbers, and {why}"),
+            CandidateFate::Refused(why) => format!("in real numbers, and {why}"),
             _ => "in real numbers".to_owned(),
         };
         (nearest.config.method.to_string(), (nearest.real.whole, nearest.real.n), why)
@@ -241,10 +244,10 @@ fn ranked(built: Vec<(Considered, Option<Design>)>) -> Vec<Considered> {
     let mut all: Vec<Considered> = built.into_iter().map(|(considered, _)| considered).collect();
     all.sort_by(|a, b| {
         let key = |considered: &Considered| match &considered.verdict {
-            Verdict::Narrowed(hardware) => (0, Some(*hardware)),
-            Verdict::Proved(hardware) => (1, Some(*hardware)),
-            Verdict::Refused(_) => (2, None),
-            Verdict::TooFar => (3, None),
+            CandidateFate::Narrowed(hardware) => (0, Some(*hardware)),
+            CandidateFate::Proved(hardware) => (1, Some(*hardware)),
+            CandidateFate::Refused(_) => (2, None),
+            CandidateFate::TooFar => (3, None),
         };
         key(a).cmp(&key(b)).then_with(|| a.real.whole.total_cmp(&b.real.whole))
     });

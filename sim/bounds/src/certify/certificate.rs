@@ -7,7 +7,7 @@ use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method};
 use serde::{Deserialize, Serialize};
 
-use super::claim::{Claims, EveryClaim, ExponentClaim, Region};
+use super::claim::{Claims, EveryClaim, ExponentClaim, Stretch};
 use super::hardware::HardwareClaim;
 use crate::seal::{self, BrokenSeal, Sealed, Unreadable};
 
@@ -134,7 +134,7 @@ impl Claim {
         let of_level = |levels: &Levels| format!("Q = {}, G = {}", levels.q(), levels.g());
         match self {
             Self::Exponents(Claims { levels, claims }) => {
-                let claims = || claims.iter().filter(|claim| claim.region == Region::Epicentre);
+                let claims = || claims.iter().filter(|claim| claim.region == Stretch::Epicentre);
                 let mut exponents: Vec<f64> = claims().map(|claim| claim.n).collect();
                 exponents.sort_by(f64::total_cmp);
                 exponents.dedup();

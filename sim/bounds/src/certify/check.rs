@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use thiserror::Error;
 
 use super::certificate::{Certificate, Claim};
-use super::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Region};
+use super::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Stretch};
 use super::curve::is_exact;
 use super::error::{ErrorFunction, EveryExponent, OneExponent};
 use super::fault::Fault;
@@ -110,10 +110,10 @@ fn check_exponent(claim: &ExponentClaim, levels: Levels) -> Result<Checked, Faul
     if !(1.0..=MAX_EXPONENT).contains(n) {
         return Err(Fault::new("n", "exponents are numbers from 1 to 1e15"));
     }
-    if !Region::of(*method).contains(region) {
+    if !Stretch::of(*method).contains(region) {
         return Err(Fault::new("region", "the method is not made for it"));
     }
-    if relative.is_some() != (*region == Region::Epicentre) {
+    if relative.is_some() != (*region == Stretch::Epicentre) {
         return Err(Fault::new("relative", "it belongs to an epicentre, and to no tail"));
     }
     let finding = |finding: &Finding, measure, name: &str| match finding {
@@ -138,7 +138,7 @@ fn check_every_exponent(claims: &Claims<EveryClaim>) -> Result<Checked, Fault> {
     claims.claims.iter().enumerate().try_fold(Checked::default(), |sum, (index, claim)| {
         let EveryClaim { method, absolute, relative } = claim;
         let place = format!("claims[{index}] ({method}, every n), ");
-        if !Region::has_formula_of_n(*method) {
+        if !Stretch::has_formula_of_n(*method) {
             let fault = Fault::new("method", "it has no formula on the epicentre, in n");
             return Err(fault.within(&place));
         }

@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 /// Which x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Region {
+pub enum Stretch {
     /// x from q to 1, where x^n ≥ Q.
     Epicentre,
     /// x from 0 to q.
     Tail,
 }
 
-impl Region {
+impl Stretch {
     /// The regions that a method is made for.
     #[must_use]
     pub const fn of(method: Method) -> &'static [Self] {
@@ -137,7 +137,7 @@ pub struct ExponentClaim {
     /// n.
     pub n: f64,
     /// Which x.
-    pub region: Region,
+    pub region: Stretch,
     /// max |f − x^n|.
     pub absolute: Finding,
     /// max |f/x^n − 1|; none on a tail, where it has no bound.

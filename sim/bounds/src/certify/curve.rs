@@ -28,7 +28,7 @@
 use hw_model::fit::{Levels, Method};
 use hw_model::highlight::Centred;
 
-use super::claim::Region;
+use super::claim::Stretch;
 use crate::interval::{Interval, Real};
 
 /// One method at one h, or at every h of an interval: its coefficients.
@@ -90,13 +90,13 @@ impl<R: Real> Curve<R> {
 
     /// The curve that `method` has on `region`; h within [0, 1].
     #[must_use]
-    pub fn new(method: Method, region: Region, logs: &Logs, h: R) -> Self {
+    pub fn new(method: Method, region: Stretch, logs: &Logs, h: R) -> Self {
         let one = R::exactly(1.0);
         let l = R::from(logs.l);
         let p = l * (h * l).phi();
         let shape = match (method, region) {
             (Method::Schlick, _) => Shape::Hyperbola { scale: one, at_one: one },
-            (Method::Rational, _) | (Method::Composite, Region::Tail) => {
+            (Method::Rational, _) | (Method::Composite, Stretch::Tail) => {
                 Shape::Hyperbola { scale: R::exactly(logs.levels.q()), at_one: one - p }
             }
             (Method::Tangent, _) => {
@@ -187,9 +187,9 @@ impl Curve<Interval> {
 /// satisfies them: through 0, as cubics without d are, for n = 1, 2, 3; x·(u·x − v)² is x (u = 0) or x³
 /// (v = 0); a parabola x or x²; x/(A − B·x) x for B = 0.
 #[must_use]
-pub fn is_exact(method: Method, region: Region, exponent: f64) -> bool {
+pub fn is_exact(method: Method, region: Stretch, exponent: f64) -> bool {
     let exact: &[f64] = match (method, region) {
-        (Method::Composite, Region::Tail) | (Method::Rational | Method::Schlick, _) => &[1.0],
+        (Method::Composite, Stretch::Tail) | (Method::Rational | Method::Schlick, _) => &[1.0],
         (Method::Hermite | Method::ThreePoint | Method::Minimax | Method::Composite, _) => {
             &[1.0, 2.0, 3.0]
         }

@@ -7,7 +7,7 @@
 
 use hw_model::fit::{FitError, Levels, Method, fit};
 
-use super::claim::{Measure, Region};
+use super::claim::{Measure, Stretch};
 use super::curve::{Curve, Logs, reciprocal};
 use super::partition::{Axis, Cell};
 use crate::interval::{Interval, Real, Slopes};
@@ -40,13 +40,13 @@ pub(super) struct Span {
 }
 
 impl Span {
-    fn of(region: Region, logs: &Logs) -> Self {
+    fn of(region: Stretch, logs: &Logs) -> Self {
         let range = |low, high| Interval::new(low, high);
         match region {
-            Region::Epicentre => {
+            Stretch::Epicentre => {
                 Self { outer: range(0.0, logs.l.high()), inner: range(0.0, logs.l.low()) }
             }
-            Region::Tail => Self {
+            Stretch::Tail => Self {
                 outer: range(logs.l.low(), f64::INFINITY),
                 inner: range(logs.l.high(), f64::MAX),
             },
@@ -72,7 +72,7 @@ fn error<R: Real>(measure: Measure, curve: &Curve<R>, sigma: R) -> R {
 /// The error of one exponent.
 #[derive(Debug, Clone)]
 pub(super) struct OneExponent {
-    region: Region,
+    region: Stretch,
     measure: Measure,
     logs: Logs,
     h: Interval,
@@ -88,7 +88,7 @@ impl OneExponent {
     pub(super) fn new(
         method: Method,
         n: f64,
-        region: Region,
+        region: Stretch,
         measure: Measure,
         levels: Levels,
     ) -> Result<Self, FitError> {
@@ -133,7 +133,7 @@ impl ErrorFunction for OneExponent {
     /// greater of them at `far`. f falls where its denominator is positive, which grows with σ. f/x^n has
     /// no bound.
     fn beyond(&self, far: f64) -> f64 {
-        if self.region != Region::Tail || self.measure != Measure::Absolute {
+        if self.region != Stretch::Tail || self.measure != Measure::Absolute {
             return f64::INFINITY;
         }
         let sigma = Interval::exactly(far);
@@ -159,7 +159,7 @@ impl EveryExponent {
     }
 
     fn at<R: Real>(&self, h: R, sigma: R) -> R {
-        error(self.measure, &Curve::new(self.method, Region::Epicentre, &self.logs, h), sigma)
+        error(self.measure, &Curve::new(self.method, Stretch::Epicentre, &self.logs, h), sigma)
     }
 }
 
@@ -169,7 +169,7 @@ impl ErrorFunction for EveryExponent {
     }
 
     fn span(&self) -> Span {
-        Span::of(Region::Epicentre, &self.logs)
+        Span::of(Stretch::Epicentre, &self.logs)
     }
 
     fn greatest(&self, cell: Cell) -> (f64, Axis) {

@@ -128,7 +128,8 @@ fn sweep(design: &Design, rows: &[HardwareRow], progress: &dyn Progress) -> Resu
         .map(|index| {
             let (address, piece) = ((index / pieces) as usize, index % pieces);
             let last = (piece * PIECE + PIECE - 1).min(greatest);
-            let seen = Row::new(design, address, &rows[address]).sweep(piece * PIECE, last)?;
+            let seen =
+                CheckedRow::new(design, address, &rows[address]).sweep(piece * PIECE, last)?;
             progress.advance(seen);
             Ok(seen)
         })
@@ -137,13 +138,13 @@ fn sweep(design: &Design, rows: &[HardwareRow], progress: &dyn Progress) -> Resu
         .sum()
 }
 
-struct Row<'a> {
+struct CheckedRow<'a> {
     design: &'a Design,
     address: usize,
     row: &'a HardwareRow,
 }
 
-impl<'a> Row<'a> {
+impl<'a> CheckedRow<'a> {
     const fn new(design: &'a Design, address: usize, row: &'a HardwareRow) -> Self {
         Self { design, address, row }
     }

@@ -9,7 +9,7 @@
 use hw_model::fit::{FitError, Levels, Method};
 use thiserror::Error;
 
-use super::claim::{Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Region, Witness};
+use super::claim::{Enclosure, EveryClaim, ExponentClaim, Finding, Measure, Stretch, Witness};
 use super::curve::is_exact;
 use super::error::{ErrorFunction, EveryExponent, OneExponent};
 use super::partition::{Cell, LEAF};
@@ -67,7 +67,7 @@ pub enum NotProved {
 pub fn claim_exponent(
     method: Method,
     n: f64,
-    region: Region,
+    region: Stretch,
     levels: Levels,
 ) -> Result<ExponentClaim, NotProved> {
     let find = |measure| {
@@ -78,7 +78,7 @@ pub fn claim_exponent(
         enclose(&error, false).map(Finding::Enclosed)
     };
     let absolute = find(Measure::Absolute)?;
-    let bounded = region == Region::Epicentre;
+    let bounded = region == Stretch::Epicentre;
     let relative = bounded.then(|| find(Measure::Relative)).transpose()?;
     Ok(ExponentClaim { method, n, region, absolute, relative })
 }

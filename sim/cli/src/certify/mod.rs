@@ -24,7 +24,7 @@ use super::table::{Format, write_folded};
 use analysis::hardware_claim::certify_hardware;
 use bounds::certify::certificate::{Certificate, Claim};
 use bounds::certify::check::{Checked, check};
-use bounds::certify::claim::{Claims, Region};
+use bounds::certify::claim::{Claims, Stretch};
 use bounds::certify::hardware::points;
 use bounds::certify::search::{claim_every_exponent, claim_exponent};
 use bounds::seal::identity;
@@ -149,7 +149,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 impl Args {
     /// Whether anything is claimed of an epicentre. A preset or configuration has one.
     fn has_epicentre(&self) -> bool {
-        let made_for = |&method: &Method| Region::of(method).contains(&Region::Epicentre);
+        let made_for = |&method: &Method| Stretch::of(method).contains(&Stretch::Epicentre);
         self.method.as_ref().is_none_or(|methods| methods.0.iter().any(made_for))
     }
 }
@@ -172,7 +172,7 @@ fn claim(args: &Args) -> anyhow::Result<Claim> {
         exponents.as_ref().context("say --exponents, --all-real-n, --preset or --config")?;
     let methods = args.method.as_ref().map_or(&Method::ALL[..], |methods| &methods.0);
     let pairs = methods.iter().flat_map(|&method| {
-        Region::of(method).iter().flat_map(move |&region| {
+        Stretch::of(method).iter().flat_map(move |&region| {
             exponents.iter().map(move |exponent| (method, region, exponent))
         })
     });
@@ -194,7 +194,7 @@ fn claim(args: &Args) -> anyhow::Result<Claim> {
 /// A tail reaches to x = 0 for every n, and has no bounded box: epicentres only.
 fn every_exponent(methods: Option<&Methods>, levels: Levels) -> anyhow::Result<Claim> {
     let methods = methods.map_or(&[Method::Hermite][..], |methods| &methods.0);
-    let formula = |&&method: &&Method| Region::has_formula_of_n(method);
+    let formula = |&&method: &&Method| Stretch::has_formula_of_n(method);
     let chosen: Vec<Method> = methods.iter().filter(formula).copied().collect();
     anyhow::ensure!(
         !chosen.is_empty(),
@@ -220,7 +220,7 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
     let greatest = match claim {
         Claim::Exponents(Claims { claims, .. }) => claims
             .iter()
-            .filter(|claim| claim.region == Region::Epicentre)
+            .filter(|claim| claim.region == Stretch::Epicentre)
             .map(|claim| claim.absolute.upper())
             .reduce(f64::max),
         Claim::EveryExponent(Claims { claims, .. }) => {

@@ -7,7 +7,7 @@ use hw_model::fit::Method;
 use crate::out::Out;
 use crate::table::{Cell, Format, Rows, digits};
 use bounds::certify::certificate::Claim;
-use bounds::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Region};
+use bounds::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Stretch};
 use bounds::certify::hardware::{HardwareClaim, HardwareRow, Overall, Worst};
 
 /// More exponents than that are summed up in a table.
@@ -73,7 +73,7 @@ fn no_cells() -> [Cell; 2] {
 
 fn exponents_table(claims: &Claims<ExponentClaim>, out: &mut Out) -> anyhow::Result<()> {
     let Claims { levels, claims } = claims;
-    let count = |method: Method, region: Region| {
+    let count = |method: Method, region: Stretch| {
         claims.iter().filter(|claim| claim.method == method && claim.region == region).count()
     };
     let listed = claims.iter().all(|claim| count(claim.method, claim.region) <= MOST_LISTED);

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::highlight::{Answers, Part};
-use super::requests::Pipeline;
+use super::highlight::{Answers, Zone};
+use super::requests::ScenePipeline;
 use super::samples::Samples;
 use super::shading::Picture;
 use crate::scene::Scene;
@@ -75,21 +75,21 @@ pub struct MaterialFigures {
 impl MaterialFigures {
     /// Samples in this part.
     #[must_use]
-    pub const fn count(&self, part: Part) -> u64 {
+    pub const fn count(&self, part: Zone) -> u64 {
         match part {
-            Part::Epicentre => self.epicentre,
-            Part::Tail => self.tail,
-            Part::Zero => self.zero,
-            Part::FacesAway => self.facing_away,
+            Zone::Epicentre => self.epicentre,
+            Zone::Tail => self.tail,
+            Zone::Zero => self.zero,
+            Zone::FacesAway => self.facing_away,
         }
     }
 
-    const fn counter(&mut self, part: Part) -> &mut u64 {
+    const fn counter(&mut self, part: Zone) -> &mut u64 {
         match part {
-            Part::Epicentre => &mut self.epicentre,
-            Part::Tail => &mut self.tail,
-            Part::Zero => &mut self.zero,
-            Part::FacesAway => &mut self.facing_away,
+            Zone::Epicentre => &mut self.epicentre,
+            Zone::Tail => &mut self.tail,
+            Zone::Zero => &mut self.zero,
+            Zone::FacesAway => &mut self.facing_away,
         }
     }
 }
@@ -150,7 +150,7 @@ pub struct Cycles {
 impl Cycles {
     /// The cycles of so many requests at this clock, in MHz. Without a request there is no cycle and no rate.
     #[must_use]
-    pub fn new(pipeline: &Pipeline<'_>, requests: u64, clock_mhz: f64) -> Self {
+    pub fn new(pipeline: &ScenePipeline<'_>, requests: u64, clock_mhz: f64) -> Self {
         let latency = pipeline.design.datapath().rank_count() as u64;
         let cycles = if requests > 0 { requests + latency } else { 0 };
         let frames_per_second = (cycles > 0).then(|| clock_mhz * 1e6 / cycles as f64);

@@ -21,7 +21,7 @@ const SCALE_HEIGHT: f64 = 46.0;
 /// The most fields of the scale on either side of 0.
 const MOST_FIELDS: i32 = 8;
 
-/// Pipeline minus reference of each pixel: of its three colours the one that differs most.
+/// ScenePipeline minus reference of each pixel: of its three colours the one that differs most.
 fn signed(pipeline: &Picture, reference: &Picture) -> Vec<i32> {
     let difference = |(one, other): (&[u16; 3], &[u16; 3])| {
         let of = |colour: usize| i32::from(one[colour]) - i32::from(other[colour]);

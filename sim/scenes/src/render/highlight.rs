@@ -6,7 +6,7 @@ use hw_model::highlight::phong;
 use hw_model::quantise::real;
 use rayon::prelude::*;
 
-use super::requests::{Pipeline, Which};
+use super::requests::{ScenePipeline, Which};
 use super::samples::Samples;
 use crate::scene::Scene;
 
@@ -15,7 +15,7 @@ const PIECE: usize = 1 << 13;
 
 /// Where in the highlight a sample lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Part {
+pub enum Zone {
     /// The light is behind the surface, or x is not above 0: zero without asking.
     #[default]
     FacesAway,
@@ -27,7 +27,7 @@ pub enum Part {
     Epicentre,
 }
 
-impl Part {
+impl Zone {
     /// All, in the order of tables.
     pub const ALL: [Self; 4] = [Self::Epicentre, Self::Tail, Self::Zero, Self::FacesAway];
 
@@ -49,17 +49,17 @@ pub struct Answers {
     /// In the output format's unit, a place for each sample.
     pub intensities: Vec<i64>,
     /// Where each lies. Of samples that were not asked for, only that they are zero or face away.
-    pub parts: Vec<Part>,
+    pub parts: Vec<Zone>,
     /// Samples that went to the pipeline.
     pub requests: u64,
 }
 
-impl Pipeline<'_> {
+impl ScenePipeline<'_> {
     /// The pipeline's answers. Each exponent's requests go through the block engine together.
     #[must_use]
     pub fn answers(&self, samples: &Samples, which: Which) -> Answers {
         let mut intensities = vec![0_i64; samples.samples.len()];
-        let mut parts = vec![Part::FacesAway; samples.samples.len()];
+        let mut parts = vec![Zone::FacesAway; samples.samples.len()];
         let requests = intensities
             .par_chunks_mut(PIECE)
             .zip(parts.par_chunks_mut(PIECE))
@@ -77,13 +77,13 @@ impl Pipeline<'_> {
         which: Which,
         first: usize,
         intensities: &mut [i64],
-        parts: &mut [Part],
+        parts: &mut [Zone],
         block: &mut Block,
     ) -> u64 {
         let range = first..first + intensities.len();
         for (sample, part) in samples.samples[range.clone()].iter().zip(parts.iter_mut()) {
             // What is asked below is put in its place there.
-            *part = if sample.faces_away() { Part::FacesAway } else { Part::Zero };
+            *part = if sample.faces_away() { Zone::FacesAway } else { Zone::Zero };
         }
         let mut count = 0;
         for group in self.requests(samples, range, which) {
@@ -94,11 +94,11 @@ impl Pipeline<'_> {
                 group.samples.iter().zip(&group.xs).zip(answers)
             {
                 let place = sample as usize - first;
-                if parts[place] == Part::FacesAway || region == Region::Zero {
+                if parts[place] == Zone::FacesAway || region == Region::Zero {
                     continue;
                 }
                 let row = &self.rows[usize::from(samples.material_of(sample as usize))];
-                parts[place] = if x >= row.epicentre { Part::Epicentre } else { Part::Tail };
+                parts[place] = if x >= row.epicentre { Zone::Epicentre } else { Zone::Tail };
                 intensities[place] = intensity;
             }
         }

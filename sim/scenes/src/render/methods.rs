@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::colour::Codes;
 use super::figures::difference;
 use super::highlight::reference;
-use super::requests::{Pipeline, Which};
+use super::requests::{ScenePipeline, Which};
 use super::samples::Samples;
 use super::shading::{Picture, shade};
 use super::sheet::{Sheet, SheetError};
@@ -71,7 +71,7 @@ pub fn methods(scene: &Scene, samples: &Samples, like: &Config) -> Result<Vec<u8
     let exponents = scene.exponents();
     let panel = |&(name, preset, method): &(&str, &str, Method)| {
         let design = hardware(preset, method, &exponents, like);
-        let pipeline = design.as_ref().and_then(|design| Pipeline::new(design, scene).ok());
+        let pipeline = design.as_ref().and_then(|design| ScenePipeline::new(design, scene).ok());
         let Some(pipeline) = pipeline else {
             return Panel { words: format!("{name}: too wide"), pixels: Vec::new() };
         };

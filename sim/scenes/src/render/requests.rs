@@ -70,14 +70,14 @@ pub(super) struct MaterialRow {
 
 /// The pipeline, and what it has for each material of a scene.
 #[derive(Debug)]
-pub struct Pipeline<'a> {
+pub struct ScenePipeline<'a> {
     pub(super) design: &'a Design,
     /// In the order of the materials.
     pub(super) rows: Vec<MaterialRow>,
     exponents: Vec<f64>,
 }
 
-impl<'a> Pipeline<'a> {
+impl<'a> ScenePipeline<'a> {
     /// The pipeline for the materials of this scene.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use vectors::output_text::json;
 use vectors::text_file::decimal_comma;
 
 use super::check;
@@ -52,7 +53,5 @@ impl Scene {
 pub fn schema() -> String {
     // A schema made of types is plain JSON: serialising it cannot fail.
     let schema = schemars::schema_for!(Description);
-    let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
-    text.push('\n');
-    text
+    json(&schema).unwrap_or_default()
 }

@@ -23,7 +23,7 @@ use super::certificate::{Certificate, Display, Part, Proved};
 use super::codes::pixels_outside;
 use super::compare::certify;
 use super::demand::{Demand, demands};
-use super::derive::{Row, kept, rows};
+use super::derive::{AskedRow, kept, rows};
 use super::refused::Refused;
 use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
@@ -165,7 +165,7 @@ fn own_rows(
     certificate: &Certificate,
     source: &Design,
     specialised: &Design,
-) -> Result<Vec<Row>, Refused> {
+) -> Result<Vec<AskedRow>, Refused> {
     let demand = |(index, part): (usize, &Part)| match part.least {
         least if (0.0..=1.0).contains(&least) => {
             Ok(Demand { exponent: part.n, least, greatest: 1.0, mesh: false })
@@ -188,7 +188,11 @@ fn own_rows(
 
 /// The specialised configuration is the source with rows, parts and bits left out: what specialisation does not
 /// change is as it is in the source.
-fn check_left_out(certificate: &Certificate, source: &Design, rows: &[Row]) -> Result<(), Refused> {
+fn check_left_out(
+    certificate: &Certificate,
+    source: &Design,
+    rows: &[AskedRow],
+) -> Result<(), Refused> {
     let specialised = &certificate.specialised;
     let wrong = |problem: String| Refused::Field { field: "specialised".to_owned(), problem };
     let mut wanted =
@@ -239,7 +243,7 @@ fn difference(wanted: &Config, found: &Config) -> String {
 fn find_again(
     certificate: &Certificate,
     (source, specialised): (&Design, &Design),
-    rows: &[Row],
+    rows: &[AskedRow],
     progress: &dyn Progress,
 ) -> Result<(), Refused> {
     let Certificate { scene, command, display, proved, parts, statement, .. } = certificate;

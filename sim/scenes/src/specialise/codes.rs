@@ -11,7 +11,7 @@ use hw_model::format::QFormat;
 use super::certificate::{Display, Part, Proved};
 use super::compare::certify;
 use super::demand::Demand;
-use super::derive::{Row, SpecialiseError, derive, kept};
+use super::derive::{AskedRow, SpecialiseError, derive, kept};
 use super::refused::Refused;
 use crate::render::Samples;
 use crate::scene::Scene;
@@ -35,7 +35,7 @@ pub enum ReduceError {
 /// When it cannot be made, or is not certified.
 pub fn reduce(
     source: &Design,
-    rows: &[Row],
+    rows: &[AskedRow],
     name: &str,
     display: Display,
     allowed: Option<u16>,
@@ -58,7 +58,7 @@ pub fn reduce(
 /// no such hardware.
 fn with_output(
     source: &Design,
-    rows: &[Row],
+    rows: &[AskedRow],
     name: &str,
     bits: u32,
 ) -> Result<Option<Design>, SpecialiseError> {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use vectors::limits::{Sweep, TooManyInputs};
 
 use super::certificate::{Display, Part, Proved};
-use super::derive::Row;
+use super::derive::AskedRow;
 use super::refused::Refused;
 use crate::render::Codes;
 use crate::scene::{DISPLAY_BITS, Image};
@@ -22,7 +22,7 @@ const REQUESTS: usize = 128;
 ///
 /// # Errors
 /// When they are too many.
-pub fn points(source: &Design, rows: &[Row]) -> Result<u64, TooManyInputs> {
+pub fn points(source: &Design, rows: &[AskedRow]) -> Result<u64, TooManyInputs> {
     let per_row = source.datapath().front_end().greatest as u128 + 1;
     Sweep::Specialise.within(per_row * rows.len() as u128, source.config().input)
 }
@@ -35,7 +35,7 @@ pub fn points(source: &Design, rows: &[Row]) -> Result<u64, TooManyInputs> {
 pub fn certify(
     source: &Design,
     specialised: &Design,
-    rows: &[Row],
+    rows: &[AskedRow],
     display: Display,
     allowed: Option<u16>,
     progress: &dyn Progress,
@@ -123,7 +123,7 @@ impl<'a> Pair<'a> {
     fn new(
         source: &'a Design,
         specialised: &'a Design,
-        row: &Row,
+        row: &AskedRow,
         codes: &'a Codes,
     ) -> Result<Self, String> {
         let designs = [source, specialised];
@@ -217,7 +217,7 @@ impl<'a> Pair<'a> {
         answers
     }
 
-    fn part(&self, row: &Row, found: &Found) -> Part {
+    fn part(&self, row: &AskedRow, found: &Found) -> Part {
         let Found { points, differing, greatest, refused, .. } = *found;
         let (first, last) = self.domain;
         let (n, least) = (row.demand.exponent, row.demand.least);

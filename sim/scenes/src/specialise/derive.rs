@@ -44,7 +44,7 @@ pub enum SpecialiseError {
 
 /// The part of the domain that one exponent has.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct AskedRow {
     /// What is asked.
     pub demand: Demand,
     /// Where the source has it.
@@ -59,7 +59,7 @@ pub struct Row {
 ///
 /// # Errors
 /// When nothing is asked, or an exponent has no word.
-pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<Row>, SpecialiseError> {
+pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<AskedRow>, SpecialiseError> {
     if demands.is_empty() {
         return Err(SpecialiseError::NothingAsked);
     }
@@ -73,7 +73,7 @@ pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<Row>, SpecialiseE
         };
         let place = rom.exponents().position(demand.exponent).ok_or_else(missing)?;
         let scaled = round_scaled(demand.least, input.fraction_bits(), Rounding::Floor);
-        Ok(Row {
+        Ok(AskedRow {
             demand: *demand,
             address: place as u32,
             cut: source.datapath().front_end().cut(&rom.rows()[place]),
@@ -85,7 +85,7 @@ pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<Row>, SpecialiseE
 
 /// True where no row needs what lies below its cut.
 #[must_use]
-pub fn is_guarded(source: &Design, rows: &[Row]) -> bool {
+pub fn is_guarded(source: &Design, rows: &[AskedRow]) -> bool {
     source.datapath().stages().is_some() && rows.iter().all(|row| row.least >= row.cut)
 }
 
@@ -93,7 +93,7 @@ pub fn is_guarded(source: &Design, rows: &[Row]) -> bool {
 ///
 /// # Errors
 /// When the smaller configuration is refused.
-pub fn derive(source: &Design, rows: &[Row], name: &str) -> Result<Design, SpecialiseError> {
+pub fn derive(source: &Design, rows: &[AskedRow], name: &str) -> Result<Design, SpecialiseError> {
     let mut config = kept(source, rows, name)?;
     config.widths = source.widths();
     if config.tail == Tail::Zero {
@@ -120,7 +120,11 @@ pub fn derive(source: &Design, rows: &[Row], name: &str) -> Result<Design, Speci
 ///
 /// # Errors
 /// When the exponents are no list.
-pub(super) fn kept(source: &Design, rows: &[Row], name: &str) -> Result<Config, SpecialiseError> {
+pub(super) fn kept(
+    source: &Design,
+    rows: &[AskedRow],
+    name: &str,
+) -> Result<Config, SpecialiseError> {
     let mut config = source.config().clone();
     config.name = format!("{name}_{}", config.name);
     config.description = format!("{} for what the scene {name} asks", source.config().name);
@@ -129,7 +133,8 @@ pub(super) fn kept(source: &Design, rows: &[Row], name: &str) -> Result<Config, 
     config.domain = Vec::new();
     if is_guarded(source, rows) {
         config.tail = Tail::Zero;
-        let presented = |row: &Row| Presented { n: row.demand.exponent, least: row.demand.least };
+        let presented =
+            |row: &AskedRow| Presented { n: row.demand.exponent, least: row.demand.least };
         config.domain = rows.iter().map(presented).collect();
     }
     Ok(config)

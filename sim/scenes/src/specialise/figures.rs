@@ -6,7 +6,7 @@ use hw_model::format::QFormat;
 use hw_model::rom::{FieldName, Place};
 use serde::Serialize;
 
-use super::derive::Row;
+use super::derive::AskedRow;
 use hw_model::stated::{Hardware, NAMES, of_design};
 
 /// A part, before and after.
@@ -24,7 +24,7 @@ pub struct LeftOut {
 
 /// The table of the two.
 #[must_use]
-pub fn left_out(source: &Design, specialised: &Design, rows: &[Row]) -> Vec<LeftOut> {
+pub fn left_out(source: &Design, specialised: &Design, rows: &[AskedRow]) -> Vec<LeftOut> {
     let both = [source, specialised];
     let mut list = Vec::new();
     let mut add = |part: &str, of: &dyn Fn(&Design) -> u64, why: String| {
@@ -121,7 +121,7 @@ fn register_bits(datapath: &Datapath) -> u64 {
     (0..datapath.rank_count()).map(bits).sum()
 }
 
-fn tail_reason(source: &Design, specialised: &Design, rows: &[Row]) -> String {
+fn tail_reason(source: &Design, specialised: &Design, rows: &[AskedRow]) -> String {
     if source.datapath().divider().is_none() {
         return "there was none".to_owned();
     }

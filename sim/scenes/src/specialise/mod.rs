@@ -26,6 +26,6 @@ pub use check::{Asked, Held, check, inputs};
 pub use codes::{ReduceError, pixels_outside, reduce};
 pub use compare::{certify, points};
 pub use demand::{Demand, demands};
-pub use derive::{Row, SpecialiseError, derive, is_guarded, rows};
+pub use derive::{AskedRow, SpecialiseError, derive, is_guarded, rows};
 pub use figures::{LeftOut, left_out};
 pub use refused::Refused;
