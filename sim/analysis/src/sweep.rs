@@ -414,7 +414,7 @@ fn by_squaring(exponent: u32, mut squares: [f64; POWERS]) -> [f64; POWERS] {
 /// The error of rounding a real x to the input format, at its worst: x^n is steepest at x = 1, where
 /// half an ulp h costs 1 − (1 − h)^n. It is conditioning, not a fault of the pipeline.
 #[must_use]
-pub fn input_quantisation(design: &Design, exponent: f64) -> f64 {
+pub(crate) fn input_quantisation(design: &Design, exponent: f64) -> f64 {
     let half_ulp = 0.5 * design.config().input.ulp();
     1.0 - phong_at_s(exponent, half_ulp)
 }

@@ -28,7 +28,7 @@ pub mod colour {
     /// Letters and outlines.
     pub const INK: &str = "#1a1a1a";
     /// Words that stand back.
-    pub const QUIET: &str = "#555555";
+    pub(crate) const QUIET: &str = "#555555";
     /// Grid lines, and wires that carry nothing.
     pub const FAINT: &str = "#c4c4c4";
     /// Paper.

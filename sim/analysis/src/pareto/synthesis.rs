@@ -43,7 +43,7 @@ pub fn read(text: &str) -> Result<Vec<Synthesis>, SynthesisError> {
 /// The lines that belong to these contenders, each with the place of its contender: presets as they are
 /// shipped, of the latency that they have now.
 #[must_use]
-pub fn matching(contenders: &[Contender], rows: &[Synthesis]) -> Vec<(usize, Synthesis)> {
+pub(crate) fn matching(contenders: &[Contender], rows: &[Synthesis]) -> Vec<(usize, Synthesis)> {
     let of = |row: &Synthesis| {
         contenders.iter().position(|contender| match &contender.engine {
             Engine::Hardware(design) => {

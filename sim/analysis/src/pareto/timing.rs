@@ -23,9 +23,9 @@ use super::inputs::{Inputs, Samples};
 use super::kernel::Loops;
 
 /// Samples of a pass: with what comes out, they fit into a second-level cache.
-pub const SAMPLES: usize = 1 << 14;
+pub(crate) const SAMPLES: usize = 1 << 14;
 /// Timed passes of a turn.
-pub const PASSES: usize = 4;
+pub(crate) const PASSES: usize = 4;
 /// Samples of one exponent in a row.
 pub const BLOCK: usize = 1 << 10;
 /// The fewest rounds.

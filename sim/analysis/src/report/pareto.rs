@@ -10,7 +10,7 @@ use crate::pareto::{ContenderRow, ParetoReport};
 /// The table that is the same run after run.
 pub const TABLE: &str = "pareto.csv";
 /// The table that is of one machine.
-pub const TIMING_TABLE: &str = "pareto_timing.csv";
+pub(crate) const TIMING_TABLE: &str = "pareto_timing.csv";
 /// Everything.
 pub const JSON: &str = "pareto.json";
 
@@ -53,7 +53,7 @@ pub fn table(report: &ParetoReport) -> Result<Vec<u8>, FilesError> {
 ///
 /// # Errors
 /// When a row does not become CSV.
-pub fn timing_table(report: &ParetoReport) -> Result<Option<Vec<u8>>, FilesError> {
+pub(crate) fn timing_table(report: &ParetoReport) -> Result<Option<Vec<u8>>, FilesError> {
     report.timing.as_ref().map(|timing| written::table(TIMING_TABLE, &timing.rows)).transpose()
 }
 

@@ -10,7 +10,7 @@
 //! them. An answer holds when it has the flags it should have, and lies no further from the method
 //! (real coefficients, the same part) than the proved bound of its row.
 //!
-//! The ROM's own words are in [`super::words`].
+//! The ROM's own words are in `words.rs`.
 
 use hw_model::config::Config;
 use hw_model::datapath::{Signals, Status};

@@ -86,7 +86,7 @@ pub struct Enclosure {
     /// Tails: where the partition ends. Beyond, σ ≥ far, f and x^n are both below `upper`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub far: Option<f64>,
-    /// The boxes over each of which the error is at most `upper`, as [`super::partition`] writes them.
+    /// The boxes over each of which the error is at most `upper`, as `partition.rs` writes them.
     pub partition: String,
 }
 

@@ -15,7 +15,7 @@ impl Presented {
     /// True where there can be no highlight, whatever the pipeline would answer: the light is behind the surface, or
     /// the angle is a right one or more.
     #[must_use]
-    pub fn faces_away(&self) -> bool {
+    pub(crate) fn faces_away(&self) -> bool {
         !(self.lit > 0.0 && self.x > 0.0)
     }
 }

@@ -14,11 +14,11 @@ use super::obj::{GREATEST_COORDINATE, MOST_TRIANGLES};
 use super::vector::Vector;
 
 /// Pixels of the longest side of a picture.
-pub const GREATEST_SIDE: u32 = 16_384;
+pub(crate) const GREATEST_SIDE: u32 = 16_384;
 /// Pixels times lights of a picture: 64 million take some 4 GB.
-pub const MOST_SAMPLES: u64 = 1 << 26;
+pub(crate) const MOST_SAMPLES: u64 = 1 << 26;
 /// The bits that a display code can have.
-pub const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
+pub(crate) const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
 /// The most lights.
 const MOST_LIGHTS: usize = 16;
 /// The most materials; an index of 16 bits, with room.

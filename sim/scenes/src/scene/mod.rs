@@ -18,7 +18,7 @@ mod polygon;
 mod read;
 mod vector;
 
-pub use check::{DISPLAY_BITS, GREATEST_SIDE, MOST_SAMPLES};
+pub(crate) use check::DISPLAY_BITS;
 pub use checked::{Light, Material, Origin, Scene, Shape, Surface, View};
 pub use description::{Angle, Description, Image, Normals, Transfer};
 pub use error::{MeshError, SceneError};

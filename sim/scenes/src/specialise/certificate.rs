@@ -40,7 +40,7 @@ pub struct Display {
 impl Display {
     /// The greatest code; 0 where the bits are not those of a scene.
     #[must_use]
-    pub fn greatest_code(&self) -> u32 {
+    pub(crate) fn greatest_code(&self) -> u32 {
         if DISPLAY_BITS.contains(&self.bits) { (1 << self.bits) - 1 } else { 0 }
     }
 }
