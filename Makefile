@@ -93,7 +93,7 @@ bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes d
 	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package sim --bench throughput --locked
 
-pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
+pareto: ## what precision costs, every contender at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
 	@mkdir -p target
 	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
 	@mkdir -p docs/pareto
@@ -119,7 +119,7 @@ mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes l
 	$(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants -- --ignored
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
 
-mutants-rust: ## the Rust code altered on purpose, under its tests: which alterations nobody sees; takes hours
+mutants-rust: ## the Rust code altered on purpose: which alterations its tests do not see; takes hours
 	@scripts/mutants-rust
 
 fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in results/fuzz

@@ -1,5 +1,5 @@
-//! The commands of README work as they are printed, one after the other, in a directory that has nothing but the files of
-//! docs/ they name.
+//! The commands of README work as they are printed, one after the other, in a directory that has nothing but the files
+//! of docs/ they name.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -93,8 +93,8 @@ fn its_commands_work_in_an_empty_directory() {
 
 #[test]
 fn commands_and_their_statuses_are_found() {
-    let page = "$ no\n```console\n$ blysk a --b 1   # words, exit status 1: not so\n$ make test\n$ make -C results/rtl\n\
-                what it says\n$ cargo install x\n```\n$ no\n```json\n$ no\n```\n";
+    let page = "$ no\n```console\n$ blysk a --b 1   # words, exit status 1: not so\n$ make test\n\
+                $ make -C results/rtl\nwhat it says\n$ cargo install x\n```\n$ no\n```json\n$ no\n```\n";
     let found = commands(page);
     let found: Vec<_> = found.iter().map(|printed| (printed.command.as_str(), printed.status)).collect();
     assert_eq!(found, [("blysk a --b 1", 1), ("make -C results/rtl", 0)]);

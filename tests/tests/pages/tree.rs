@@ -8,7 +8,8 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ is in the repository").to_owned()
 }
 
-/// Directories that `.gitignore` names, each with `/` at its end: what a build or a command leaves there is not the tree's.
+/// Directories that `.gitignore` names, each with `/` at its end: what a build or a command leaves there is not the
+/// tree's.
 pub fn ignored() -> Vec<String> {
     let list = fs::read_to_string(root().join(".gitignore")).expect(".gitignore");
     list.lines().filter(|line| line.ends_with('/')).map(str::to_owned).collect()
