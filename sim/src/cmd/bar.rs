@@ -13,7 +13,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::analysis::error_report::Progress;
 
-/// What is shown, line by line; whoever draws, draws here, so that no line breaks another.
+/// What is shown, line by line; everything that is drawn is drawn here, so that no line breaks another.
 static SHOWN: LazyLock<MultiProgress> = LazyLock::new(|| {
     MultiProgress::with_draw_target(match std::io::stderr().is_terminal() {
         true => ProgressDrawTarget::stderr(),
@@ -38,7 +38,7 @@ impl Bar {
         Self::counting(samples, "samples")
     }
 
-    /// A bar that counts so many of these; none where the count is not known.
+    /// A bar that counts up to a number of things; none where the number is not known.
     pub(super) fn counting(count: Option<u64>, what: &str) -> Self {
         let Some(count) = count else { return Self(ProgressBar::hidden()) };
         let style = ProgressStyle::with_template(&format!(

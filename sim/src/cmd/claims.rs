@@ -14,8 +14,8 @@ use crate::report::claims::page;
 
 /// Judge the claims of the paper: what holds, for which exponents, and what is misprinted.
 ///
-/// Every number is computed here and now. From which exponent a claim fails is found by bisection over
-/// the integers. With --out, the directory gets claims.csv, claims.json and claims.md. Exit status: 0 when
+/// Every number is computed in this run. The exponent from which a claim fails is found by bisection over the
+/// integers. With --out, the directory gets claims.csv, claims.json and claims.md. Exit status: 0 when
 /// every claim could be judged, whatever became of it; 2 for an error.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk claims\n          \
@@ -29,7 +29,7 @@ pub(super) struct Args {
     /// Write the claims to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// How to print.
+    /// How to print the claims.
     #[arg(long, value_enum, default_value_t)]
     format: Shape,
 }

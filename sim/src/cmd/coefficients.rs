@@ -9,17 +9,17 @@ use super::{Out, Outcome};
 
 /// Print the real coefficients of a method.
 ///
-/// Cubics: a·x³ + b·x² + c·x + d, and the same as 1 − s(k1 − s(k2 − s·k3)) with s = 1 − x. Ratios
-/// x/(A − B·x): A under a, B under b.
+/// A cubic is printed as a·x³ + b·x² + c·x + d and as 1 − s(k1 − s(k2 − s·k3)) with s = 1 − x. Of a ratio
+/// x/(A − B·x) the column a has A and the column b has B.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Example: blysk coefficients --method hermite --exponents 2.5,64,1e9 --format csv"
 )]
 pub(super) struct Args {
-    /// hermite, three_point, tangent, minimax, quadratic, rational, composite or schlick.
+    /// The method: hermite, three_point, tangent, minimax, quadratic, rational, composite or schlick.
     #[arg(long, value_name = "METHOD")]
     method: Method,
-    /// Such as 1..=256, 1,2,8,64 or 2.5,1e6.
+    /// The exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Exponents,
     /// Q, the level where the epicentre ends.

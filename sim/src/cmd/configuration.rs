@@ -10,7 +10,7 @@ use hw_model::names;
 use hw_model::presets;
 use vectors::text_file::{self, CONFIGURATION, decimal_comma};
 
-/// Which configuration.
+/// The options that choose a configuration: a preset's name or a file.
 #[derive(Args)]
 #[group(required = true, multiple = false)]
 pub(super) struct Configuration {

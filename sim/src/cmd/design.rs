@@ -20,12 +20,12 @@ use crate::analysis::sizing::{
     Breaks, Considered, Fewer, Hardware, Over, Request, Sized, Verdict, Witness, samples, size,
 };
 
-/// Search hardware that keeps an error with little: form, method, segments, widths and rounding.
+/// Search for the least hardware that keeps an error: form, method, segments, widths and rounding.
 ///
-/// What can be built is held against x^n in real numbers, given widths that are proved to keep the error, and
-/// ranked by multiplier bits (the widths of both operands, multiplied, of every multiplier), then ROM bits, then
+/// Every design that can be built is compared with x^n in real numbers, given widths that are proved to keep the error,
+/// and ranked by multiplier bits (the widths of both operands, multiplied, of every multiplier), then ROM bits, then
 /// latency, then register bits. The first few are narrowed bit by bit as far as the error allows, measured at
-/// every x of the range. What is printed is the least that was found, of which no register can lose a bit: every
+/// every x of the range. The least design that was found is printed. None of its registers can lose a bit: every
 /// register gets two witnesses, an n and an x at which a fraction bit less, or an integer bit less, breaks the
 /// error or overflows. t3 has the output's fraction bits, and is not narrowed. The configuration that --out writes
 /// states all widths. Some exponents with ten bits of x take seconds, 1..=256 with 24 bits some minutes. csv and json
@@ -47,7 +47,8 @@ pub(super) struct Args {
     /// The greatest error allowed, as a fraction of 1.
     #[arg(long, allow_negative_numbers = true, value_parser = bound)]
     error: f64,
-    /// Over which x: all of [0, 1], the epicentre (x^n >= 1/2), or where x^n is at least a number.
+    /// The x over which the error is kept: all of [0, 1], the epicentre (x^n >= 1/2), or where x^n is at least a
+    /// number.
     #[arg(long, default_value = "all", value_name = "all|epicentre|LEVEL", value_parser = over)]
     range: Over,
     /// How many designs are narrowed.
@@ -56,7 +57,7 @@ pub(super) struct Args {
     /// Write the configuration to this file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// How to print.
+    /// How to print the design and its witnesses.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }

@@ -16,7 +16,8 @@ use crate::document::{COMMON, Subject, stage};
 /// Write the hardware designers' reference: ports, ROM map, registers, lines, timing.
 ///
 /// Each configuration gets a page in Markdown with a block diagram and timing diagrams as SVG, good
-/// enough to build the pipeline from; README.md says what all have in common. Same command, same bytes.
+/// enough to build the pipeline from; README.md says what all have in common. The same command writes
+/// the same bytes.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk document --preset compact --out hardware\n          \
                         blysk document --config mine.json --out hardware\n          \
@@ -38,7 +39,7 @@ struct Choice {
     /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Every preset.
+    /// Write a page for every preset.
     #[arg(long)]
     all_presets: bool,
 }

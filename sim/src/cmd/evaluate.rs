@@ -20,12 +20,13 @@ use crate::evaluate::{Answer, Csv, Dialect, Hex, Question, StreamError, stream};
 
 /// Ask the golden model: the intensity of (n, x), or of every line of a file or of standard input.
 ///
-/// With --n and --x: the intensity, x^n, the error and the part of the pipeline that answered. x is rounded to the
-/// input format first, and x^n is that of the rounded x, so that the error is the hardware's. With a file, or - for
-/// standard input: an answer for each line, in order, as the lines come. CSV begins with a line that names the columns
-/// n (or address) and x (or x_bits, an integer or 0x…); the answer has n, x, intensity, reference, error_ulp, region,
-/// intensity_bits, status. Hex is a word {address, x} a line, as in stimulus.mem, and the answer a word
-/// {status, intensity}, as in expected.mem.
+/// With --n and --x the command prints the intensity, x^n, the error and the part of the pipeline that answered. x is
+/// rounded to the input format first, and x^n is taken at the rounded x, so that the error is the hardware's.
+///
+/// With a file, or - for standard input, the command writes an answer for each line, in order, as the lines come. CSV
+/// begins with a line that names the columns n (or address) and x (or x_bits, an integer or 0x…); an answer has the
+/// columns n, x, intensity, reference, error_ulp, region, intensity_bits, status. In hex a question is a word
+/// {address, x} as in stimulus.mem, and an answer a word {status, intensity} as in expected.mem.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk evaluate --preset paper --n 64 --x 0.99 --ranks\n          \
@@ -38,7 +39,7 @@ pub(super) struct Args {
     questions: Option<PathBuf>,
     #[command(flatten)]
     configuration: Configuration,
-    /// The exponent.
+    /// The exponent n, one of the ROM's.
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     n: Option<f64>,
     /// x as a real number.
@@ -108,7 +109,7 @@ fn answer_lines(
     };
     match answered {
         Ok(_) => Ok(Outcome::Good),
-        // Nobody reads any more, so no question is left.
+        // The reader of the answers is gone, so no question is left.
         Err(StreamError::Write(error)) if error.kind() == ErrorKind::BrokenPipe => {
             Ok(Outcome::Good)
         }

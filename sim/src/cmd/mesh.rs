@@ -18,7 +18,7 @@ use crate::scene::{Knot, Normals, triangles};
     after_help = "Example: blysk mesh --kind torus-knot --along 64 --sides 12 --out knot.obj"
 )]
 pub(super) struct Args {
-    /// Which mesh.
+    /// Which mesh to make.
     #[arg(long, value_enum, default_value_t)]
     kind: Kind,
     /// Turns of the knot round the axis of its torus, 1 to 16.
@@ -36,7 +36,7 @@ pub(super) struct Args {
     /// Radius of the tube, 0.01 to 0.5, where the torus has radius 1.
     #[arg(long, value_name = "RADIUS", default_value_t = 0.22)]
     tube: f64,
-    /// What to write.
+    /// The format of the file.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
     /// Write to this file; - is standard output.
@@ -53,7 +53,7 @@ enum Kind {
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 enum Format {
-    /// Wavefront OBJ.
+    /// A Wavefront OBJ file.
     #[default]
     Obj,
 }

@@ -1,4 +1,4 @@
-//! The `blysk` command line: the only place that knows clap and paths.
+//! The `blysk` command line: the only place of this crate that knows clap and opens files.
 //!
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
 //! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
@@ -40,14 +40,14 @@ use clap::{Parser, Subcommand};
 
 /// Bit-accurate, cycle-accurate model of a specular-highlight shading pipeline.
 #[derive(Parser)]
-#[command(name = "blysk", version, about, max_term_width = 100)]
+#[command(name = "blysk", version, max_term_width = 100)]
 #[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
 }
 
-/// What each does is said at its arguments: said here, it would take the place of what they say.
+/// The commands. What each does is said at its arguments: a comment here would replace the one there.
 #[derive(Subcommand)]
 enum Command {
     Report(report::Args),
@@ -81,12 +81,12 @@ enum Outcome {
     Fails,
 }
 
-/// Standard output, buffered.
+/// Standard output, buffered, so that a line is not a system call.
 type Out = BufWriter<Stdout>;
 
 /// Standard output, whose errors say that it is what could not be written.
 ///
-/// Whoever reads it may stop (`| head`). The rest then goes nowhere, and the command comes to its end all the same:
+/// Its reader may stop (`| head`). The rest then goes nowhere, and the command comes to its end all the same:
 /// its exit status is its verdict, and its files are written.
 struct Stdout {
     lock: io::StdoutLock<'static>,
@@ -98,7 +98,7 @@ impl Stdout {
         Self { lock: io::stdout().lock(), closed: false }
     }
 
-    /// What a write gave, or `rest` where nobody reads any more.
+    /// What a write gave, or `rest` where the reader has closed the pipe.
     fn unless_closed<T>(&mut self, result: io::Result<T>, rest: T) -> io::Result<T> {
         match result {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
@@ -153,7 +153,7 @@ pub fn main() -> ExitCode {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Fails) => ExitCode::from(1),
         Err(error) => {
-            // A closed standard error leaves nobody to tell.
+            // Where standard error is closed, the exit status alone tells.
             let _ = writeln!(io::stderr(), "error: {}", message(&error));
             ExitCode::from(2)
         }

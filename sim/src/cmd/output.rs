@@ -11,7 +11,8 @@ pub(super) fn is_standard_output(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// The set of files that a command writes to `--out DIR`: with a list of them, and names that are known before the work.
+/// The set of files that a command writes to `--out DIR`: with a list of them, and names that are known before the
+/// work.
 pub(super) fn set<N: AsRef<str>>(
     directory: &Path,
     command: &str,

@@ -21,7 +21,7 @@ use crate::analysis::pareto::timing::FEWEST_ROUNDS;
 use crate::analysis::pareto::{ParetoReport, TimingOptions, compare};
 use crate::report::pareto as files;
 
-/// Compare what every method's error costs, and tell which are dominated.
+/// Compare every method and preset by error and cost, and tell which are dominated.
 ///
 /// Methods in f32 and f64, powf, repeated squaring, tables of straight lines, and every preset bit for bit: the
 /// greatest and the RMS error over every representable x of every exponent (minutes of work; less with
@@ -43,27 +43,27 @@ pub(super) struct Args {
     #[arg(long, value_name = "K", default_value_t = 1,
           value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
-    /// Leave out run time, which is another one each time: what remains is the same bytes run after run.
+    /// Leave out run times, which differ from run to run: the other outputs are the same bytes every time.
     #[arg(long)]
     no_timing: bool,
     /// Rounds of timing, in each of which every contender has a turn; 15 at least.
     #[arg(long, value_name = "COUNT", default_value_t = 101, conflicts_with = "no_timing",
           value_parser = clap::value_parser!(u64).range(FEWEST_ROUNDS..=100_000))]
     rounds: u64,
-    /// What the x and n of timing are drawn from.
+    /// Seed of the x and n that are timed.
     #[arg(long, default_value_t = 1, conflicts_with = "no_timing")]
     seed: u64,
-    /// What `make synth` wrote (default: results/synth/synth.csv, where that is there).
+    /// The table that `make synth` wrote (default: results/synth/synth.csv, where there is one).
     #[arg(long, value_name = "FILE")]
     synth: Option<PathBuf>,
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// See whether a pareto.csv of the same exponents and input still holds: costs and the greatest errors
-    /// where they were, and no greater one among every K-th x.
+    /// Check whether a pareto.csv of the same exponents and input still holds: costs, the greatest errors at their x,
+    /// and no greater error among every K-th x.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "synth", "format"])]
     check: Option<PathBuf>,
-    /// What to print.
+    /// What to print of the comparison.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }
@@ -75,7 +75,7 @@ enum Format {
     Table,
     /// pareto.csv: nothing that depends on the machine.
     Csv,
-    /// Everything.
+    /// Everything that pareto.json has.
     Json,
     /// Everything as a page.
     Markdown,

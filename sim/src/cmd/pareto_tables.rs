@@ -39,7 +39,7 @@ pub(super) fn print(
     Ok(())
 }
 
-/// Everything as Markdown.
+/// Writes the whole comparison as Markdown, for docs/PARETO.md.
 pub(super) fn page(report: &ParetoReport, out: &mut dyn Write) -> anyhow::Result<()> {
     writeln!(out, "{}\n", scope(report))?;
     for section in sections(report) {
@@ -133,7 +133,7 @@ fn errors(report: &ParetoReport) -> Section {
     Section { title, rows, notes: Vec::new() }
 }
 
-/// The front, or who dominates.
+/// `FRONT`, or the contender that dominates.
 fn standing(front: Option<bool>, dominated_by: Option<&String>) -> Cell {
     match (front, dominated_by) {
         (Some(true), _) => Cell::from("FRONT"),

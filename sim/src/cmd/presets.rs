@@ -13,7 +13,7 @@ use crate::analysis::pareto::hardware::multipliers;
 
 /// List the presets, or print one as a starting point for a configuration.
 ///
-/// Wherever a command takes --preset NAME, it takes one that was changed with --config FILE.
+/// A command that takes --preset NAME also takes --config FILE, with a file that began as one of these.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk presets\n          blysk presets show paper > mine.json")]
 pub(super) struct Args {
@@ -34,7 +34,7 @@ enum Command {
     },
     /// Print a preset as JSON.
     Show {
-        /// The preset.
+        /// The name of the preset.
         name: String,
     },
 }

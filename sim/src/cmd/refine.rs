@@ -23,8 +23,8 @@ use crate::analysis::refine::{Found, Options, Range, Refined, refine, samples};
 /// arithmetic at every representable x of the range, against the correctly rounded x^n, until no neighbour
 /// within --reach is better. The configuration that --out writes has the steps from the rounded coefficients in
 /// `coefficient_steps`, and states its widths, so that the steps keep their meaning. The table shows the
-/// greatest error before and after, that of the method with real coefficients, and what is between them in
-/// output ulp. All 256 rows of preset precise take half a minute of one core.
+/// greatest error before and after, the greatest error of the method with real coefficients, and the differences
+/// between these in output ulp. All 256 rows of preset precise take half a minute of one core.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk refine --preset compact --exponents 64,128 --out refined.json\n          \
@@ -36,16 +36,22 @@ pub(super) struct Args {
     /// Write the configuration with the steps to this file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Search only these rows.
+    /// Search only the rows of these exponents.
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
-    /// Over which x the error is to be least.
+    /// The x over which the error is to be least.
     #[arg(long, value_enum, default_value_t)]
     range: Over,
     /// No coefficient moves farther than this, in units of its last place; 0 measures and moves nothing.
-    #[arg(long, default_value_t = 32, allow_negative_numbers = true, value_name = "STEPS", value_parser = clap::value_parser!(i32).range(0..=256))]
+    #[arg(
+        long,
+        default_value_t = 32,
+        allow_negative_numbers = true,
+        value_name = "STEPS",
+        value_parser = clap::value_parser!(i32).range(0..=256)
+    )]
     reach: i32,
-    /// How to print.
+    /// How to print what was found.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }

@@ -24,11 +24,12 @@ use crate::scene::Scene;
 /// Render a scene, every highlight through the pipeline, and compare it with x^n.
 ///
 /// Spheres, planes and meshes are hit by one ray for each pixel; every x goes through the data path, bit for bit,
-/// grouped by exponent, and beside it through x^n. With --out, the directory gets both pictures, a heat map of
+/// grouped by exponent, and is compared with x^n. With --out, the directory gets both pictures, a heat map of
 /// their difference in display codes, the methods side by side, and the figures as render.csv and render.json. The
 /// table has the samples (pixels times lights) of each material by region, and the greatest error of their
-/// highlights in display codes of linear light. Software leaves out what faces away or lies below the cut: the highlights
-/// are computed with and without that, compared, and timed. Exit status 1 would say that the two differ.
+/// highlights in display codes of linear light. Software leaves out samples that face away or lie below the cut: the
+/// highlights are computed with and without these samples, compared, and timed. Exit status: 0 when both are the same,
+/// 1 when they differ, 2 for an error.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk render scene.json --preset paper --out pictures\n          \
@@ -43,10 +44,10 @@ pub(super) struct Args {
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Another size than the scene's, in pixels: 1920x1080.
+    /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// The clock that frames are counted by, in MHz.
+    /// The clock of the hardware, from which frames a second follow, in MHz.
     #[arg(long, value_name = "MHZ", default_value_t = 100.0, value_parser = clock)]
     clock_mhz: f64,
     /// How to print; csv and json are those of the files.

@@ -24,10 +24,10 @@ use super::{Out, Outcome};
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
-    /// Only these exponents.
+    /// Print the words of these exponents only.
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
-    /// How to print.
+    /// How to print the words and their fields.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
     /// Also write rom.csv and rom.json to this directory; - prints, and writes none.

@@ -17,7 +17,7 @@ use crate::analysis::error_report::Progress;
 ///
 /// The directory stands alone: SystemVerilog sources and the package of widths, the ROM image, a
 /// self-checking testbench with its vectors, a Makefile for Icarus Verilog and Verilator, and a
-/// FuseSoC core file. Same command, same bytes.
+/// FuseSoC core file. The same command writes the same bytes.
 #[derive(ClapArgs)]
 #[command(after_help = "Example: blysk rtl --preset compact --out rtl")]
 pub(super) struct Args {
@@ -26,17 +26,17 @@ pub(super) struct Args {
     /// The directory; it is made where it does not exist.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// The module under test: your own, with the ports of `blysk`. Its sources go into DUT of the
-    /// Makefile; only its ports are checked.
+    /// The module under test, where it is your own with the ports of `blysk`. Give its sources to make as DUT=FILE;
+    /// only its ports are checked.
     #[arg(long, value_name = "NAME", default_value = TOP, value_parser = module_name)]
     dut: String,
     /// How vectors are chosen: mixed, corners, even, random or exhaustive.
     #[arg(long, default_value_t)]
     strategy: Strategy,
-    /// How many vectors.
+    /// How many vectors the bundle has.
     #[arg(long, default_value_t = 4096)]
     count: u64,
-    /// Seed of the random ones.
+    /// Seed of the random vectors.
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }

@@ -26,7 +26,7 @@ pub(super) struct Args {
     /// Print the JSON schema of scenes.
     #[arg(long, conflicts_with_all = ["scene", "format"])]
     schema: bool,
-    /// How to print.
+    /// How to print the materials.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
 }

@@ -17,7 +17,7 @@ pub(super) fn watch() -> std::io::Result<()> {
     Ok(())
 }
 
-/// There are none.
+/// Does nothing, as this system has no such signals.
 #[cfg(not(unix))]
 pub(super) fn watch() -> std::io::Result<()> {
     Ok(())

@@ -30,7 +30,7 @@ use crate::waves::{WaveFormat, WaveWriter};
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
-    /// The stimulus.
+    /// The stimulus, a CSV file.
     #[arg(long, value_name = "FILE")]
     stimulus: PathBuf,
     /// Write every port and register of every cycle to this CSV file; - is standard output, which then has nothing

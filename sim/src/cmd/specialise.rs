@@ -29,15 +29,17 @@ use crate::specialise::{
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
 ///
 /// For each exponent the interval of x is bounded over every real place of the picture (not only its pixels), and
-/// what no x of it needs is left out: ROM words, the tail, clamps, bits of coefficients and registers. The directory
-/// gets the smaller configuration.json, certificate.json, left_out.csv and .json, and in rtl its hardware with
-/// testbench and vectors. The certificate says that over every (n, x) of the domain the answers are the same
-/// bits, or with --allow-codes that they differ by at most so many display codes of the highlight at full strength,
-/// in the scene's curve; then the output has fewer bits and widths are derived anew. An x outside the domain gives 0
-/// and sets the status flag out_of_domain. With --check, a certificate is checked: both configurations are built
-/// again and every x is tried again. Nothing in it is believed: with a scene, its display and its demands are held
-/// against it, with --preset or --config the configuration that it is about, with --allow-codes the most codes that
-/// answers may differ by; what was not given is named. Exit status 1 says that a certificate does not hold.
+/// the parts that no x of the interval needs are left out: ROM words, the tail, clamps, bits of coefficients and
+/// registers. The directory gets the smaller configuration.json, certificate.json, left_out.csv and .json, and in rtl
+/// the hardware with testbench and vectors. The certificate says that over every (n, x) of the domain the answers are
+/// the same bits, or with --allow-codes that they differ by at most that many display codes of the highlight at full
+/// strength, in the scene's transfer curve; then the output has fewer bits and widths are derived anew. An x outside
+/// the domain gives 0 and sets the status flag out_of_domain.
+///
+/// With --check, a certificate is checked: both configurations are built again and every x is tried again. The checker
+/// believes nothing in a certificate. A scene is compared with the certificate's display and domain, --preset or
+/// --config with its source, --allow-codes with the codes that it allows; a subject that was not given is named as not
+/// checked. Exit status 1 says that a certificate does not hold.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Examples: blysk specialise scene.json --preset paper --out small\n          \
@@ -52,18 +54,18 @@ pub(super) struct Args {
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Allow answers that differ by up to this many display codes; without it they are the same bits. With --check, refuse
-    /// a certificate of more.
+    /// Allow answers that differ by up to this many display codes; without it they are the same bits. With --check,
+    /// refuse a certificate that allows more.
     #[arg(long, value_name = "CODES")]
     allow_codes: Option<u16>,
-    /// How many vectors.
+    /// How many vectors the RTL's bundle has.
     #[arg(long, default_value_t = 4096)]
     count: u64,
-    /// Seed of the random ones.
+    /// Seed of the random vectors.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Also synthesise both for an ECP5 with Yosys, and count; f_max is measured by scripts/synth.py --config. The
-    /// directory gets source_rtl as well.
+    /// Also synthesise both configurations for an ECP5 with Yosys, and count their cells; scripts/synth.py --config
+    /// measures f_max. The directory gets source_rtl as well.
     #[arg(long, requires = "out")]
     synth: bool,
     /// Check this certificate instead.
@@ -274,8 +276,8 @@ impl Made {
         let all = answers.parts.len() as u64;
         let away = answers.parts.iter().filter(|&&part| part == Part::FacesAway).count() as u64;
         Ok(format!(
-            "Software sends {} of the {all} samples of the picture: {away} face away, and {} lie below a cut where zero \
-             answers. blysk render measures the time that this saves.",
+            "Software sends {} of the {all} samples of the picture: {away} face away, and {} lie below a cut where \
+             zero answers. blysk render measures the time that this saves.",
             answers.requests,
             all - away - answers.requests
         ))

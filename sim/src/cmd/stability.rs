@@ -25,11 +25,12 @@ use crate::report::stability::{Part as PartFiles, write};
 
 /// Measure what stiff and extreme cases cost.
 ///
-/// Digits lost by ways to compute coefficients; condition of the two forms and the widths it costs; answers at
-/// the edges of x, n, formats and ROM words; every pair of neighbouring x (falls, and jumps where one part
-/// hands over to another); the f64 reference against exact integers. Edges and seams need a
+/// Five parts: the digits that ways to compute coefficients lose; the condition of the two forms and the widths that
+/// it costs; answers at the edges of x, n, formats and ROM words; every pair of neighbouring x (falls, and jumps where
+/// one part of the pipeline hands over to another); the f64 reference against exact integers. Edges and seams need a
 /// configuration. With --out, each part gets tables as CSV, everything as JSON, and plots as SVG and PNG. Exit
-/// status: 0; 1 when an edge is not answered as it must be or the reference is not what it says; 2 for an error.
+/// status: 0; 1 when an edge is not answered as it must be or the reference errs by more than it promises; 2 for an
+/// error.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk stability --part coefficients\n          \
                         blysk stability --config mine.json --out stability\n          \
@@ -37,17 +38,17 @@ use crate::report::stability::{Part as PartFiles, write};
 pub(super) struct Args {
     #[command(flatten)]
     configuration: MaybeConfiguration,
-    /// What to measure.
+    /// The part of the report to measure.
     #[arg(long, value_enum, default_value_t)]
     part: Part,
     /// Exponents of the configuration that edges and seams look at (default: all).
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]
     exponents: Option<Exponents>,
-    /// Random cases of the part reference.
+    /// How many random cases the part reference computes.
     #[arg(long, value_name = "COUNT", default_value_t = 20_000,
           value_parser = clap::value_parser!(u64).range(1..=10_000_000))]
     samples: u64,
-    /// What they are drawn from.
+    /// Seed of the random cases.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Write the files to this directory.
@@ -70,7 +71,7 @@ enum Part {
     Seams,
     /// The f64 reference against exact integers.
     Reference,
-    /// All of them.
+    /// Every part, one after the other.
     #[default]
     All,
 }

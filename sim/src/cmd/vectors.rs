@@ -16,11 +16,11 @@ use crate::analysis::error_report::Progress;
 
 /// Write test vectors for an RTL simulation.
 ///
-/// The directory gets stimulus.mem, expected.mem and rom.mem for $readmemh, vectors.csv (the same with
-/// every stage's expected register), and manifest.json; and negative_control.mem, which is expected.mem with
-/// one wrong word: a testbench that is given it must fail. Same command, same bytes.
+/// The directory gets stimulus.mem, expected.mem and rom.mem for $readmemh, vectors.csv (the same vectors with
+/// every expected register), and manifest.json; and negative_control.mem, which is expected.mem with
+/// one wrong word: a testbench that is given it must fail. The same command writes the same bytes.
 ///
-/// Strategy compact looks at every input for the fewest vectors that show every fault of its model, and
+/// Strategy compact looks at every input for the fewest vectors that show every fault of the fault model, and
 /// writes faults.csv; that takes minutes.
 #[derive(ClapArgs)]
 #[command(
@@ -34,22 +34,22 @@ pub(super) struct Args {
     /// The directory; it is made where it does not exist. With --format csv the file, or - for standard output.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// What to write.
+    /// Which files to write.
     #[arg(long, value_enum, default_value_t)]
     format: Shape,
-    /// mixed, compact (as few as show every fault), corners, even, random or exhaustive (every address
-    /// with every x).
+    /// How vectors are chosen: mixed, compact (as few as show every fault), corners, even, random or exhaustive
+    /// (every address with every x).
     #[arg(long, default_value_t)]
     strategy: Strategy,
-    /// How many vectors; compact and exhaustive do not ask.
+    /// How many vectors; compact and exhaustive settle that themselves.
     #[arg(long, default_value_t = 4096)]
     count: u64,
-    /// Seed of the random ones, and of the wrong word.
+    /// Seed of the random vectors, and of the wrong word of the negative control.
     #[arg(long, default_value_t = 1)]
     seed: u64,
 }
 
-/// What is written.
+/// The files that the command writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 enum Shape {
     /// Every file of the bundle.
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     print(args, &manifest, out)
 }
 
-/// The table alone.
+/// Writes what `vectors.csv` of the bundle would hold, and nothing else.
 fn table(bundle: &Bundle<'_>, file: WholeFile, out: &mut Out) -> anyhow::Result<Outcome> {
     let count = bundle.vector_count();
     let alone = file.is_standard_output();

@@ -30,14 +30,16 @@ use crate::seal::identity;
 
 /// Enclose the greatest error rigorously, and write or check a certificate of it.
 ///
-/// Methods, real coefficients, by interval arithmetic: max |f - x^n| and max |f/x^n - 1| over every real
-/// x of a region, between two numbers 10^-6 apart (relative; wider beside an n where the error vanishes,
-/// such as 3.0001 for hermite), for each exponent (--exponents) or for every
-/// real n >= 1 at once (--all-real-n). Regions: the epicentre, x^n >= Q; for rational, composite and
-/// schlick also the tail, x^n <= Q, where the relative error has no bound. The greater of both is that of
-/// all [0, 1]. Configurations (--preset, --config), by exhaustion: every representable x of every row.
-/// --check looks at a certificate again without the search. Exit status: 0 done, accepted; 1 a bound is
-/// exceeded, or the certificate is refused; 2 an error.
+/// Methods with real coefficients, by interval arithmetic: max |f - x^n| and max |f/x^n - 1| over every real
+/// x of a region lie between two numbers 10^-6 apart (relative; wider beside an n where the error vanishes,
+/// such as 3.0001 for hermite), for each exponent (--exponents) or for every real n >= 1 at once (--all-real-n).
+/// The regions are the epicentre, x^n >= Q, and for rational, composite and schlick also the tail, x^n <= Q, where
+/// the relative error has no bound. The greater of both errors is the error on all of [0, 1].
+///
+/// Configurations (--preset, --config), by exhaustion: every representable x of every row.
+///
+/// --check checks a certificate without the search. Exit status: 0 done, accepted; 1 a bound is exceeded, or the
+/// certificate is refused; 2 an error.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk certify --method all --exponents 1..=64\n          \
                         blysk certify --all-real-n --bound 0.00555 --out hermite.json\n          \

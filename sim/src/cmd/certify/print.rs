@@ -30,7 +30,7 @@ pub(super) fn claim(claim: &Claim, format: Format, out: &mut Out) -> anyhow::Res
     }
 }
 
-/// The positive `value` with so many significant digits, never greater (never less with `up`).
+/// The positive `value` with this number of significant digits, never greater (never less with `up`).
 ///
 /// Every f64 is a finite decimal number, of which 800 digits are all.
 fn shortened(value: f64, up: bool) -> String {
