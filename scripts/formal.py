@@ -54,7 +54,7 @@ class Property:
     bugs: list[Bug] = field(default_factory=list)
     replaces: list[str] = field(default_factory=list)  # RTL that `proof` has a module in place of
     carries_word: bool = False  # the request brings its ROM word: rom.sv in place of blysk_rom
-    bits: int = 0  # operands of the stages narrowed to so many
+    bits: int = 0  # operands of the stages narrowed to this width
     structural: bool = False  # no solver
 
 
@@ -81,7 +81,8 @@ def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
     return Property(
         name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
         files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
-        needs=needs, parameters=parameters, bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
+        needs=needs, parameters=parameters,
+        bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
     )
 
 
@@ -135,7 +136,10 @@ ALL = [
     Property(
         "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
         parameters={"COUNT": "QUOTIENT_BITS_PER_STAGE"},
-        bugs=[Bug("equal not subtracted", "blysk_tail_digits.sv", "goes        = doubled >= ", "goes        = doubled > ")],
+        bugs=[
+            Bug("equal not subtracted", "blysk_tail_digits.sv",
+                "goes        = doubled >= ", "goes        = doubled > "),
+        ],
     ),
     Property(
         "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
@@ -197,7 +201,8 @@ class Job:
             shutil.copy(PROPERTIES / name, self.place)
         if self.prop.inside:
             included = next(name for name in self.prop.proof if name.endswith(".svh"))
-            replace_once(self.place / f"{self.prop.inside}.sv", "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
+            source = self.place / f"{self.prop.inside}.sv"
+            replace_once(source, "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
         package = self.place / "blysk_pkg.sv"
         package.write_text(self.package(package.read_text()))
         if self.bug and self.bug.file:

@@ -30,7 +30,7 @@ pub enum Form {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tail {
-    /// Zero.
+    /// The intensity is 0.
     Zero,
     /// x / (A − B·x), by a divider.
     Rational,
@@ -103,7 +103,7 @@ impl StatedWidths {
     }
 }
 
-/// One configuration.
+/// One configuration: everything from which a pipeline follows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Config {
@@ -203,7 +203,7 @@ pub enum ConfigError {
     /// A field whose value cannot be used.
     #[error("field `{field}`: {problem}")]
     Field {
-        /// The field.
+        /// The field's name in the JSON.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,

@@ -15,7 +15,7 @@ use crate::rounding::Rounding;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Presented {
-    /// The exponent.
+    /// The exponent, one of the configuration's.
     pub n: f64,
     /// The least x, 0 to 1. The hardware has the next x of its input format at or below it.
     pub least: f64,

@@ -43,9 +43,9 @@ pub enum ExponentsError {
     OpenRange {
         /// The range as written.
         piece: String,
-        /// Its first bound.
+        /// The range's first bound, as written.
         low: String,
-        /// Its last bound.
+        /// The range's last bound, as written.
         high: String,
     },
     /// A bound of a range is not an integer.
@@ -60,7 +60,7 @@ pub enum ExponentsError {
     /// The exponent is below the one before it.
     #[error("the exponent {next} follows {previous}; list the exponents in increasing order")]
     Unsorted {
-        /// The greater exponent.
+        /// The exponent before, which is greater.
         previous: f64,
         /// The smaller exponent after it.
         next: f64,
@@ -116,7 +116,7 @@ impl Exponents {
         Ok(Self(list))
     }
 
-    /// The exponents, increasing.
+    /// The exponents as numbers of 1 or more, increasing.
     #[must_use]
     pub fn as_slice(&self) -> &[f64] {
         &self.0
@@ -134,13 +134,13 @@ impl Exponents {
         self.0.len()
     }
 
-    /// The least exponent.
+    /// The least exponent, which has ROM address 0.
     #[must_use]
     pub fn first(&self) -> f64 {
         self.0[0]
     }
 
-    /// The greatest exponent.
+    /// The greatest exponent, which has the last ROM address.
     #[must_use]
     pub fn last(&self) -> f64 {
         self.0[self.0.len() - 1]

@@ -129,7 +129,7 @@ impl QFormat {
         self.integer
     }
 
-    /// Fraction bits.
+    /// The number of fraction bits, which may be more than the width.
     #[must_use]
     pub const fn fraction_bits(self) -> u32 {
         self.fraction

@@ -43,7 +43,7 @@ pub enum NameError {
         "{0} is a name of the bundle itself, which is written beside your module; give it another name"
     )]
     Bundle(String),
-    /// Too long.
+    /// The name has more characters than a file system takes well.
     #[error("it has {0} characters; use at most {LONGEST}")]
     Long(usize),
 }

@@ -16,9 +16,13 @@ pub enum QuantiseError {
     #[error("{0} cannot be quantised; give a finite number")]
     NotFinite(f64),
     /// The rounded value lies outside the format, and the overflow policy refuses.
-    #[error("{value} does not fit {format}, which holds {} to {}", decimal(format.min_bits(), *format), decimal(format.max_bits(), *format))]
+    #[error(
+        "{value} does not fit {format}, which holds {} to {}",
+        decimal(format.min_bits(), *format),
+        decimal(format.max_bits(), *format)
+    )]
     Overflow {
-        /// The value.
+        /// The value that does not fit.
         value: f64,
         /// The format it was meant for.
         format: QFormat,

@@ -128,7 +128,7 @@ impl Row {
         self.get(FieldName::Shift) as u32
     }
 
-    /// The second segment's.
+    /// The second segment's shift count, less than 64; 0 where there is one segment.
     #[inline]
     #[must_use]
     pub const fn shift_outer(&self) -> u32 {
@@ -156,7 +156,7 @@ pub enum Place {
     },
     /// The same in every row: a constant of the hardware.
     Constant {
-        /// Its bits.
+        /// The field's value in every row, as bits in its format.
         bits: i64,
     },
 }
@@ -164,11 +164,11 @@ pub enum Place {
 /// One field of the layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Field {
-    /// Which field.
+    /// The name, which says what the field is for.
     pub name: FieldName,
-    /// Its format.
+    /// The format of its bits.
     pub format: QFormat,
-    /// Stored or constant.
+    /// Where it lives: in the word, or in the hardware as a constant.
     pub place: Place,
 }
 
@@ -268,7 +268,7 @@ impl Rom {
         Self { exponents, rows, layout }
     }
 
-    /// Number of words.
+    /// Number of words, which is the number of exponents.
     #[must_use]
     pub const fn depth(&self) -> usize {
         self.rows.len()

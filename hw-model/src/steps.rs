@@ -17,7 +17,7 @@ pub const MOST_STEPS: i32 = 1 << 16;
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CoefficientSteps {
-    /// The exponent.
+    /// The exponent of the row, one of the configuration's.
     pub n: f64,
     /// Of c3.
     #[serde(default, skip_serializing_if = "is_zero")]

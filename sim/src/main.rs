@@ -1,4 +1,4 @@
-//! The `blysk` command.
+//! The `blysk` command: see `blysk --help`.
 
 use std::process::ExitCode;
 

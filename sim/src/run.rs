@@ -23,9 +23,9 @@ pub struct StimulusCycle {
 /// Everything visible in one cycle, at the rising edge that ends it.
 #[derive(Debug, Clone, Copy)]
 pub struct Cycle<'a> {
-    /// Counted from 0.
+    /// The number of the cycle, counted from 0.
     pub index: u64,
-    /// What was driven.
+    /// The levels at the input ports.
     pub inputs: &'a Inputs,
     /// What the pipeline showed.
     pub outputs: &'a Outputs,
@@ -36,11 +36,11 @@ pub struct Cycle<'a> {
 /// What a run counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Counts {
-    /// Clock cycles.
+    /// The number of clock cycles.
     pub cycles: u64,
-    /// Requests taken.
+    /// The number of requests that the pipeline took.
     pub requests: u64,
-    /// Results taken.
+    /// The number of results that were taken from it.
     pub results: u64,
     /// Requests and results lost to a reset.
     pub lost_to_reset: u64,

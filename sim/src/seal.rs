@@ -1,9 +1,9 @@
-//! Sealed files: certificates that have one way to be written, and say who wrote them.
+//! Sealed files: certificates that have one way to be written, and say which command wrote them.
 //!
 //! A sealed file is JSON with `format` and `version` first and `sha256` last: the digest of the same file with that
 //! field empty. Reading compares the text with the one way to write it, byte for byte, so that no digit can be another
-//! one, not even one that an f64 does not show. A seal is no signature: whoever alters a file can seal it again. It
-//! tells damage, and nothing of truth; that is what each certificate's own checker is for.
+//! one, not even one that an f64 does not show. A seal is no signature: an attacker who alters a file can seal it
+//! again. It tells damage, and nothing of truth; that is what each certificate's own checker is for.
 
 use hw_model::config::Config;
 use hw_model::presets;
@@ -14,14 +14,14 @@ use vectors::checksum::checksum;
 
 /// A file that is sealed.
 pub trait Sealed: Clone + Serialize + DeserializeOwned {
-    /// What `format` says.
+    /// What the field `format` of such a file says.
     const FORMAT: &'static str;
     /// What `version` says; it changes when an older program could not check what is written.
     const VERSION: u32;
     /// The command that writes such files, for messages.
     const WRITER: &'static str;
 
-    /// The field `sha256`.
+    /// The seal, as the field `sha256` has it.
     fn sha256(&self) -> &str;
     /// The field `sha256`, to be filled in.
     fn sha256_mut(&mut self) -> &mut String;
@@ -36,7 +36,7 @@ pub enum Unreadable {
     Json {
         /// The command that writes such files.
         writer: &'static str,
-        /// What is wrong.
+        /// What is wrong with the JSON.
         cause: serde_json::Error,
     },
     /// Something else, or of another version.
@@ -46,7 +46,7 @@ pub enum Unreadable {
     Version {
         /// What it says it is.
         format: String,
-        /// Its version.
+        /// The version that it says.
         version: u32,
         /// What it should be.
         wanted: &'static str,
@@ -65,7 +65,7 @@ pub enum BrokenSeal {
         /// The first such line, counted from 1.
         line: usize,
     },
-    /// Another content.
+    /// The statement in words is not the one that the fields give.
     #[error("sha256: the content is not the one that was sealed")]
     Sha256,
     /// Words that do not fit.

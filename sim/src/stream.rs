@@ -26,7 +26,7 @@ pub struct Stream<'a> {
     earlier: Option<Flight>,
 }
 
-/// The requests of some cycles: a request for each, though a bubble's is nobody's.
+/// The requests of some cycles, one for each cycle; in a bubble it stands for nothing and has no result.
 #[derive(Debug, Clone)]
 struct Cycles {
     requests: Box<Requests<CYCLES, CYCLES>>,
@@ -88,7 +88,7 @@ impl<'a> Stream<'a> {
     /// The registers of a rank before the edge of a cycle, counted in the last [`run`](Self::run).
     ///
     /// # Panics
-    /// When there are not so many cycles in it.
+    /// When the stream has fewer cycles.
     #[must_use]
     pub fn rank(&self, cycle: usize, rank: usize) -> Rank {
         assert!(cycle < CYCLES);

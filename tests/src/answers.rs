@@ -1,11 +1,11 @@
-//! Logs of answers, as somebody else's simulation would write them: the right ones, to be spoiled.
+//! Logs of answers, as a user's simulation would write them: right answers, which tests then spoil.
 
 use crate::cli::Bench;
 
 /// A log: the names of its columns, and its lines.
 #[derive(Debug, Clone)]
 pub struct Log {
-    /// The names.
+    /// The names of the columns, as in the log's header.
     pub columns: Vec<String>,
     /// Every field of every line.
     pub lines: Vec<Vec<String>>,

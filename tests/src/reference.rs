@@ -7,9 +7,9 @@ pub const ROWS: usize = 180;
 
 /// One method at one exponent.
 pub struct Row {
-    /// The method's name.
+    /// The name of the method.
     pub method: String,
-    /// The exponent.
+    /// The exponent of the row.
     pub exponent: f64,
     cells: Vec<(String, String)>,
 }

@@ -1,4 +1,4 @@
-//! Waves read back, whoever wrote them and in whichever format: by `wellen`, which has no code in
+//! Reads waves back, whatever program wrote them and in whichever format: by `wellen`, which has no code in
 //! common with our writers.
 
 use std::collections::{BTreeMap, HashMap};
@@ -22,7 +22,7 @@ pub struct Waves {
 /// A signal of the waves.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signal {
-    /// Its bits.
+    /// The width of the signal, in bits.
     pub width: u32,
     /// What it holds just before each rising edge, which is what a register takes in there: its digits
     /// from the highest bit down, `0`, `1`, `x` or `z`; empty before the first value.

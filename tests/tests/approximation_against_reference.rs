@@ -73,7 +73,7 @@ fn every_maximum_is_where_it_should_be() {
     assert_eq!(compared, 139, "places compared");
 }
 
-/// The two figures everyone quotes, as they are printed.
+/// The two figures that the paper is quoted for, as they are printed.
 #[test]
 fn the_printed_figures() {
     for (n, printed) in [(64.0, "0.506510790"), (256.0, "0.542237003")] {

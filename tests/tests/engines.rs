@@ -47,7 +47,7 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
         for cycle in 0..1000 {
             if source.once_in(30) {
                 (request_in, ready_in) = (source.integer(1, 6), source.integer(1, 6));
-                // Registers are computed when somebody looks; also after many cycles without.
+                // Registers are computed when they are asked for; also after many cycles without a question.
                 looks_in = source.one_of(&[1, 1, 60]);
             }
             let (address, x) = source.one_of(&requests);

@@ -1,6 +1,6 @@
 //! The files in `tests/golden/`, made again by the commands in its README and compared byte for byte.
 //!
-//! They catch what no other test looks for: a change nobody meant. After one that was meant, rewrite
+//! They catch what no other test looks for: a change that was not meant. After one that was meant, rewrite
 //! them with `BLYSK_BLESS=1 cargo test -p blysk-tests --test golden` and read the difference.
 
 use std::fs;

@@ -1,8 +1,8 @@
-//! Commands that are killed, or that fail, while they write: afterwards there is the old set, the new set, or files that
-//! every reader refuses.
+//! Commands that are killed, or that fail, while they write: afterwards there is the old set, the new set, or files
+//! that every reader refuses.
 //!
-//! `BLYSK_ABORT_AT_STEP` and `BLYSK_FAIL_AT_STEP` (builds with debug assertions have them) stop at each step of a commit
-//! that others can see. `BLYSK_KILLS=all` adds the commands that take seconds.
+//! `BLYSK_ABORT_AT_STEP` and `BLYSK_FAIL_AT_STEP` (builds with debug assertions have them) stop at each step of a
+//! commit that others can see. `BLYSK_KILLS=all` adds the commands that take seconds.
 
 use std::path::Path;
 use std::process::Stdio;

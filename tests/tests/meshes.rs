@@ -245,7 +245,8 @@ fn faces_with_normals_stand_beside_faces_without() {
     }
 }
 
-const MESH: &str = "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0 # b\nvt 0 0\nvn 0 0 1\ng a\nf 1//1 \\\n 2//1 3//1\nf 2 4 3\n";
+const MESH: &str = "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0 # b\nvt 0 0\nvn 0 0 1\ng a\n\
+                    f 1//1 \\\n 2//1 3//1\nf 2 4 3\n";
 
 #[test]
 fn what_is_wrong_has_its_line() {

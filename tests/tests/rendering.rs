@@ -276,7 +276,8 @@ fn requests_are_the_samples_by_exponent() {
     assert_eq!(exponents, scene.exponents());
 }
 
-/// Every preset that has the exponents: leaving samples out changes no bit, and the picture errs by what the method does.
+/// Every preset that has the exponents: leaving samples out changes no bit, and the picture errs by what the method
+/// does.
 #[test]
 fn every_preset_renders_every_scene() {
     for preset in presets::ALL {
@@ -313,9 +314,9 @@ fn the_reference_is_x_to_the_n() {
     assert!(bright > 0 && samples.samples.len() > 1000);
 }
 
-/// By the samples, and by the angles themselves: a ray at most θ off the axis passes within 600 · tan θ of it wherever it
-/// meets the ball of radius 20, so the normal there leaves the axis by at most arcsin(600 · tan θ / 20), and the mirrored
-/// light the viewer by twice that and θ.
+/// By the samples, and by the angles themselves: a ray at most θ off the axis passes within 600 · tan θ of it wherever
+/// it meets the ball of radius 20, so the normal there leaves the axis by at most arcsin(600 · tan θ / 20), and the
+/// mirrored light the viewer by twice that and θ.
 #[test]
 fn the_close_up_never_leaves_the_epicentre() {
     let scene = scene("close_up");

@@ -34,15 +34,15 @@ pub const COMMAND: &str = "vectors";
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BundleError {
-    /// Nothing asked for.
+    /// A count of 0, with which the bundle would check nothing.
     #[error("a bundle of 0 vectors would check nothing; ask for a count of 1 or more")]
     NoVectors,
-    /// More than [`MAX_VECTORS`].
+    /// A count above [`MAX_VECTORS`].
     #[error(
         "{strategy} would give {count} vectors, more than {MAX_VECTORS}; {}", advice(*strategy)
     )]
     TooMany {
-        /// The strategy.
+        /// The strategy that was asked for.
         strategy: Strategy,
         /// How many vectors it would give.
         count: u128,
@@ -132,12 +132,12 @@ impl<'a> Bundle<'a> {
         Self { watcher: Watcher(watcher), ..self }
     }
 
-    /// So many more vectors are written to one of the files.
+    /// Counts `vectors` more that are written to one of the files.
     pub(crate) fn written(&self, vectors: u64) {
         (self.watcher.0)(vectors);
     }
 
-    /// Checks a count alone, for those who have work to do before the bundle.
+    /// Checks a count alone, for callers that have work to do before the bundle.
     ///
     /// # Errors
     /// When there would be no vectors, or more than [`MAX_VECTORS`].
@@ -152,7 +152,7 @@ impl<'a> Bundle<'a> {
         }
     }
 
-    /// The design.
+    /// The design for which the vectors are made.
     #[must_use]
     pub const fn design(&self) -> &'a Design {
         self.design

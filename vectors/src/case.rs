@@ -38,7 +38,7 @@ impl Case {
 /// A case and why it was chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// The case.
+    /// The input: an address and an x.
     pub case: Case,
     /// Why it was chosen.
     pub kind: Kind,
@@ -58,7 +58,7 @@ pub enum Strategy {
     Corners,
     /// Evenly spaced over [0, 1] ([`crate::stimulus::even`]).
     Even,
-    /// Seeded random ([`crate::stimulus::random`]).
+    /// Vectors drawn from a seed ([`crate::stimulus::random`]).
     Random,
     /// Every address with every x; the count is not asked.
     Exhaustive,

@@ -2,13 +2,13 @@
 //!
 //! Generators ([`stimulus`]) choose cases and know nothing of checkers; a [`Bundle`] adds the golden
 //! model's answers and writes the files; [`verify()`] reads them back, and [`check()`] judges by them
-//! what somebody else's hardware answered. Text formats of Verilog are known in this crate only.
+//! what a user's own hardware answered. Text formats of Verilog are known in this crate only.
 //!
 //! Everything written goes through [`whole_file`]: files appear whole, or not at all. Everything read comes through
 //! [`text_file`].
 //!
 //! The errors say all they know in their message; what the system said is their `cause` and not
-//! their `source()`, so that whoever prints a chain of errors does not say it twice.
+//! their `source()`, so that a program that prints a chain of errors does not say it twice.
 
 pub mod answers;
 pub mod bundle;

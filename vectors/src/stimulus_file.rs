@@ -33,11 +33,11 @@ use crate::text_file::{self, STIMULUS, TextError, TextReader};
 pub struct Cycle {
     /// Address and x; both 0 where the file left them empty.
     pub case: Case,
-    /// `in_valid`.
+    /// The level of `in_valid`: a request is presented from this cycle on.
     pub valid: bool,
-    /// `out_ready`.
+    /// The level of `out_ready`: a result can be taken in this cycle.
     pub ready: bool,
-    /// `reset`.
+    /// The level of `reset`.
     pub reset: bool,
 }
 
@@ -51,21 +51,21 @@ pub enum StimulusError {
     /// A line, or the line of column names.
     #[error("{}:{line}: {problem}", path.display())]
     Line {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
         /// What is wrong, and what would be right.
         problem: String,
     },
-    /// A field.
+    /// A field of a line cannot be used.
     #[error("{}:{line}: field `{field}`: {problem}", path.display())]
     Field {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
-        /// The column.
+        /// The name of the field's column.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,
@@ -76,7 +76,7 @@ pub enum StimulusError {
         if *nothing { ": it is empty, or has comments only" } else { "" }
     )]
     Empty {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// Not even the line of column names is there.
         nothing: bool,

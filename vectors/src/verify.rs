@@ -23,15 +23,15 @@ pub enum VerifyError {
     /// A file is missing or cannot be read.
     #[error("the bundle is incomplete: cannot read {}: {cause}; write it again", path.display())]
     Io {
-        /// The file.
+        /// The path of the file that cannot be read.
         path: PathBuf,
-        /// What is wrong.
+        /// Why it cannot be read.
         cause: TextProblem,
     },
     /// The manifest is not one.
     #[error("{} is not a manifest: {cause}", path.display())]
     Manifest {
-        /// The file.
+        /// The path of the manifest.
         path: PathBuf,
         /// What is wrong, with line and column.
         cause: serde_json::Error,
@@ -39,17 +39,17 @@ pub enum VerifyError {
     /// The manifest is of another version.
     #[error("{} has format version {found}; this tool reads {FORMAT_VERSION}", path.display())]
     Version {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// Its version.
+        /// The version that the manifest says.
         found: u32,
     },
     /// The manifest does not vouch for a file of the bundle.
     #[error("{} does not list {name}", path.display())]
     NotListed {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// The file.
+        /// The name of the file that it does not list.
         name: &'static str,
     },
     /// A file is not the one that was written.
@@ -58,11 +58,11 @@ pub enum VerifyError {
          write the bundle again", path.display()
     )]
     Checksum {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Its checksum.
+        /// The SHA-256 of the file as it is.
         found: String,
-        /// The manifest's.
+        /// The SHA-256 that the manifest lists.
         expected: String,
     },
     /// A file goes on where the one that was written ends.
@@ -71,23 +71,23 @@ pub enum VerifyError {
          write the bundle again", path.display()
     )]
     Long {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// Its bytes by the manifest.
         expected: u64,
     },
-    /// A memory file.
+    /// A memory file cannot be read.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// The table.
+    /// `vectors.csv` cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
     /// A number of lines or words is not the manifest's.
     #[error("{} has {found} vectors, the manifest says {expected}", path.display())]
     Count {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Vectors found.
+        /// The number of vectors found in the file.
         found: u64,
         /// Vectors by the manifest.
         expected: u64,
@@ -95,9 +95,9 @@ pub enum VerifyError {
     /// A field of the manifest that is out of its range.
     #[error("{}: {field}: {problem}", path.display())]
     Field {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// The field.
+        /// The name of the manifest's field.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,
@@ -108,11 +108,11 @@ pub enum VerifyError {
     /// A memory file and the table say different things.
     #[error("{}: word {index} is {found:x}, but {TABLE} says {expected:x}", path.display())]
     Disagree {
-        /// The memory file.
+        /// The path of the memory file.
         path: PathBuf,
         /// The word, counted from 0.
         index: usize,
-        /// The word.
+        /// The word that the memory file has.
         found: UBig,
         /// The word by the table.
         expected: u128,
@@ -123,7 +123,7 @@ pub enum VerifyError {
          {corrupted} there instead of {expected}", path.display()
     )]
     Control {
-        /// The file.
+        /// The path of the negative control.
         path: PathBuf,
         /// How many words differ.
         differing: usize,
@@ -139,11 +139,11 @@ pub enum VerifyError {
 /// A bundle read back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
-    /// Its manifest.
+    /// The bundle's manifest.
     pub manifest: Manifest,
     /// Its cases, with what is expected of them.
     pub vectors: Vec<TableRow>,
-    /// Its ROM image.
+    /// The words of the ROM image, by address.
     pub rom: Vec<UBig>,
 }
 

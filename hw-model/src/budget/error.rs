@@ -99,7 +99,7 @@ impl Sensitivity {
         Self { row, slopes: [first, second, third].map(|slope| magnitude(&slope, row.v)) }
     }
 
-    /// The row.
+    /// The row whose errors are analysed.
     #[must_use]
     pub const fn row(&self) -> &RowPolynomial {
         &self.row

@@ -63,7 +63,7 @@ impl Range {
 /// The rounding errors that the partial results may carry, as real values.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Carried {
-    /// Of v.
+    /// The rounding error of v.
     pub v: f64,
     /// Of t1, t2 and t3, each by its own rounding.
     pub lines: [f64; 3],

@@ -24,7 +24,7 @@ pub struct Search<'a> {
     pub pinned: [Option<u32>; Register::ALL.len()],
     /// The widest operand of a multiplier, where the configuration states one.
     pub operand_bits: Option<u32>,
-    /// Output ulp.
+    /// The error budget, in output ulp.
     pub budget: f64,
 }
 
@@ -38,7 +38,7 @@ impl Search<'_> {
         let mut bits = self.start(&integer);
         let (worst, exponent) = self.worst(&bits);
         if worst > self.budget {
-            // In the power form V is x, which nobody stated.
+            // In the power form V is x, and no format is stated for it.
             let own = usize::from(!self.surroundings.centred);
             let pinned = self.pinned[own..].iter().any(Option::is_some);
             return Err(BudgetError::NotKept {

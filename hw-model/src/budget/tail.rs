@@ -14,22 +14,22 @@ use crate::format::QFormat;
 /// The formats of the divider, and the fraction bits they share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TailWidths {
-    /// A.
+    /// The format of A, the addend of D = A − B·x.
     pub a: QFormat,
-    /// B.
+    /// The format of B, the multiplicand of D = A − B·x.
     pub b: QFormat,
-    /// D.
+    /// The format of the divisor D.
     pub divisor: QFormat,
 }
 
 /// Stated formats of the divider.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StatedTail {
-    /// A.
+    /// The format stated for A, if one is.
     pub a: Option<QFormat>,
-    /// B.
+    /// The format stated for B, if one is.
     pub b: Option<QFormat>,
-    /// D.
+    /// The format stated for D, if one is.
     pub divisor: Option<QFormat>,
 }
 

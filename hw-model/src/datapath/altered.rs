@@ -1,8 +1,8 @@
-//! The same data path with a part exchanged: hardware that was built wrongly, for those who look for
-//! vectors that tell it from the right one.
+//! The same data path with a part exchanged: hardware that was built wrongly, for the search for vectors that tell it
+//! from the right hardware.
 //!
 //! The ROM and the formats stay: they say which hardware it was meant to be. Its registers may now
-//! be given values that do not fit; who asks for them rank by rank trims them with
+//! be given values that do not fit; a caller that goes rank by rank trims them with
 //! [`QFormat::from_word`](crate::format::QFormat::from_word).
 
 use super::front_end::FrontEnd;

@@ -9,9 +9,9 @@ pub struct PolynomialFormats {
     pub v: QFormat,
     /// c0, c1, c2, c3.
     pub coefficients: [QFormat; 4],
-    /// After stage 1.
+    /// Of t1, the result of stage 1.
     pub t1: QFormat,
-    /// After stage 2.
+    /// Of t2, the result of stage 2.
     pub t2: QFormat,
     /// After stage 3, in the output's unit.
     pub t3: QFormat,
@@ -20,9 +20,9 @@ pub struct PolynomialFormats {
 /// The formats of the divider's registers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TailFormats {
-    /// A.
+    /// Of A, the addend of the divisor D = A − B·x.
     pub a: QFormat,
-    /// B.
+    /// Of B, the multiplicand of the divisor D = A − B·x.
     pub b: QFormat,
     /// D = A − B·x, and every remainder.
     pub divisor: QFormat,
@@ -33,9 +33,9 @@ pub struct TailFormats {
 /// The formats of every register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Formats {
-    /// x.
+    /// Of x at the input port.
     pub input: QFormat,
-    /// The intensity.
+    /// Of the intensity at the output port.
     pub output: QFormat,
     /// The polynomial's, where there is one.
     pub polynomial: Option<PolynomialFormats>,

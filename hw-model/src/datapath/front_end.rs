@@ -35,9 +35,9 @@ pub enum Region {
     /// The intensity is zero: facing away, below the cut without a tail, or no ROM word.
     #[default]
     Zero = 0,
-    /// The polynomial answers.
+    /// The polynomial answers: x is at or above the cut.
     Polynomial = 1,
-    /// The divider answers.
+    /// The divider answers: x is below the cut and the configuration keeps a tail.
     Tail = 2,
 }
 

@@ -12,9 +12,9 @@ use super::formats::Formats;
 /// A register that keeps less than it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Damage {
-    /// Its rank.
+    /// The rank it stands in, counted from 0.
     pub rank: usize,
-    /// Its name.
+    /// Its name, as in [`Register::name`](super::signals::Register::name).
     pub register: &'static str,
     /// What it keeps: a format of fewer bits, or its own.
     pub format: QFormat,
@@ -29,7 +29,7 @@ pub(super) trait Keep<L>: Copy {
     fn keep(self, value: L) -> L;
 }
 
-/// All of it.
+/// The way to keep a value whole, as the data path does.
 #[derive(Clone, Copy)]
 pub(super) struct Whole;
 

@@ -53,7 +53,7 @@ pub fn register_name(rank: usize, rank_name: &str, register: &str) -> String {
 }
 
 impl Datapath {
-    /// The ROM.
+    /// The ROM from which rank 0 takes its rows.
     #[must_use]
     pub const fn rom(&self) -> &Rom {
         &self.rom

@@ -20,9 +20,9 @@ const MOST_OF_ROW: u64 = 1 << 16;
 /// A value with the place where it is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extreme {
-    /// The register's bits.
+    /// The value, as the register's bits.
     pub bits: i64,
-    /// The ROM row.
+    /// The address of the ROM row at which it is taken.
     pub address: u32,
     /// The bits of x; none where it is what the part is fed when it does not answer.
     pub x: Option<i64>,
@@ -31,31 +31,31 @@ pub struct Extreme {
 /// The least and the greatest value of a register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reach {
-    /// The least.
+    /// The least value, and where the register takes it.
     pub least: Extreme,
-    /// The greatest.
+    /// The greatest value, and where the register takes it.
     pub greatest: Extreme,
 }
 
 /// What the registers of the polynomial take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PolynomialReach {
-    /// The variable.
+    /// The values of the polynomial's variable v.
     pub v: Reach,
-    /// t1, t2, t3.
+    /// The values of t1, t2 and t3, in this order.
     pub lines: [Reach; 3],
 }
 
 /// What the registers of the divider take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TailReach {
-    /// The divider's x.
+    /// The values of the x that the divider is given.
     pub x: Reach,
-    /// D.
+    /// The values of the divisor D.
     pub divisor: Reach,
     /// The remainder before the first quotient bit. Later ones are less than D, and no more is said.
     pub first_remainder: Reach,
-    /// The finished quotient.
+    /// The values of the quotient after its last bit.
     pub quotient: Reach,
 }
 
@@ -70,7 +70,7 @@ struct Interval<L> {
 type Lines<L> = [Interval<L>; 4];
 
 impl Datapath {
-    /// What the registers of the polynomial take, where there is one, and where it is found in a time that anybody
+    /// What the registers of the polynomial take, where there is one, and where it is found in a time that a caller
     /// waits for.
     #[must_use]
     pub fn polynomial_reach(&self) -> Option<PolynomialReach> {
@@ -134,8 +134,8 @@ impl Datapath {
         best.map(|(_, extreme)| extreme)
     }
 
-    /// True where a row's polynomial has an x for which it does not answer, or, like the first row, is read for addresses
-    /// without a word.
+    /// True where a row's polynomial has an x for which it does not answer, or, like the first row, is read for
+    /// addresses without a word.
     fn can_be_idle(&self, address: u32) -> bool {
         let cut = self.front_end.cut(&self.row(address));
         address == 0 || cut > 0 || self.formats.input.is_signed()

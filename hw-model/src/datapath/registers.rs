@@ -88,7 +88,7 @@ impl Datapath {
         if rank >= HEAD_RANKS {
             let steps = self.divider.map_or(0, |divider| divider.digit_stages() as usize);
             let working = rank <= HEAD_RANKS + steps;
-            // After the last quotient bits nobody asks for the divisor.
+            // After the last quotient bits no rank uses the divisor.
             if rank < HEAD_RANKS + steps {
                 list.add("divisor", formats.divisor, rank == HEAD_RANKS, |s| s.division.divisor);
             }
@@ -113,7 +113,7 @@ impl Datapath {
         }
     }
 
-    /// A coefficient of the first segment in rank 0, that of the answering segment from rank 1 on.
+    /// A coefficient: in rank 0 the first segment's, from rank 1 on the answering segment's.
     fn coefficient(
         &self,
         list: &mut List,

@@ -20,24 +20,24 @@ use super::signals::Status;
 use super::stage::MultiplyAdd;
 use super::tail::Division;
 
-/// So many requests and their results, of which `W` are evaluated together. Fill in addresses and x;
+/// `N` requests and their results, of which `W` are evaluated together. Fill in addresses and x;
 /// [`Logic::evaluate`] does the rest.
 #[derive(Debug, Clone)]
 pub struct Requests<const N: usize, const W: usize> {
-    /// ROM addresses.
+    /// The ROM address of each request.
     pub addresses: [u32; N],
     /// x, bits in the input format.
     pub xs: [i64; N],
     intensities: [i64; N],
-    /// Flags.
+    /// The status flags of each result, as in [`Status`](super::signals::Status).
     status: [i64; N],
-    /// [`Region`]s.
+    /// The [`Region`] that answers each request, as its number.
     regions: [i64; N],
     /// The words of the addresses under evaluation.
     words: Words<W>,
 }
 
-/// Where the results of so many requests go.
+/// Where the results of `W` requests go.
 struct Results<'a, const W: usize> {
     intensities: &'a mut [i64; W],
     status: &'a mut [i64; W],
@@ -83,7 +83,8 @@ impl Fetched for Row {
     }
 }
 
-/// Up to so many requests, a loop over them becomes vector instructions only where all that it reads is in lists.
+/// Up to this number of requests, a loop over them becomes vector instructions only where all that it reads is in
+/// lists.
 const FEW: usize = 8;
 
 impl<const W: usize> Words<W> {
@@ -129,7 +130,7 @@ impl<const W: usize> Words<W> {
 }
 
 impl Datapath {
-    /// Room for requests.
+    /// Empty requests (address 0, x = 0) for this data path, to be filled in and evaluated.
     #[must_use]
     pub fn requests<const N: usize, const W: usize>(&self) -> Box<Requests<N, W>> {
         const { assert!(0 < W && W <= N) };
@@ -145,7 +146,7 @@ impl Datapath {
 }
 
 impl<const N: usize, const W: usize> Requests<N, W> {
-    /// The intensities.
+    /// The intensities of the last evaluation, bits in the output format, in the order of the requests.
     #[must_use]
     pub const fn intensities(&self) -> &[i64; N] {
         &self.intensities

@@ -69,7 +69,7 @@ pub(super) trait Known {
     fn lines(lines: Lines) -> Lines;
 }
 
-/// Nothing.
+/// Nothing is known: the lines are evaluated as they are, whatever the configuration.
 pub(super) struct Anything;
 
 /// Every line rounds to the nearest, a tie up (otherwise down), and is plain, in the centred form, which subtracts

@@ -91,9 +91,9 @@ pub struct Signals {
     pub region: Region,
     /// The polynomial's variable, x or u.
     pub v: i64,
-    /// c2 ± c3·v.
+    /// The result of stage 1: c2 ± c3·v.
     pub t1: i64,
-    /// c1 ± t1·v.
+    /// The result of stage 2: c1 ± t1·v.
     pub t2: i64,
     /// c0 ± t2·v, in the output's unit.
     pub t3: i64,
@@ -101,7 +101,7 @@ pub struct Signals {
     pub tail_x: i64,
     /// The division under way.
     pub division: Division<i64>,
-    /// The result.
+    /// The pipeline's answer, bits in the output format.
     pub intensity: i64,
 }
 
@@ -110,11 +110,11 @@ pub struct Signals {
 pub struct Register {
     /// Its name in traces, waves, vectors and RTL.
     pub name: &'static str,
-    /// Its format.
+    /// The format of its bits.
     pub format: QFormat,
     /// True in the rank that computes the value, false where it is only carried along.
     pub computed: bool,
-    /// Reads its bits.
+    /// Reads the register's bits from what its rank holds.
     pub bits: fn(&Signals) -> i64,
 }
 

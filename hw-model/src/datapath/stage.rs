@@ -37,7 +37,7 @@ pub struct Fractions {
     pub variable: u32,
     /// Of the addend (c2, c1, c0 or A).
     pub addend: u32,
-    /// Of the result.
+    /// Of the result (t1, t2, t3 or D).
     pub result: u32,
 }
 

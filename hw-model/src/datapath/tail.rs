@@ -27,7 +27,7 @@ use super::stage::MultiplyAdd;
 pub struct Division<L> {
     /// D, never zero where the tail answers.
     pub divisor: L,
-    /// Less than D.
+    /// What is left of the dividend, 0 or more and less than the divisor.
     pub remainder: L,
     /// Dividend bits still to come (at the top) and quotient bits found (at the bottom).
     pub digits: L,
@@ -122,7 +122,8 @@ impl Divider {
         }
     }
 
-    /// One quotient bit.
+    /// The division with one more quotient bit found: a dividend bit moves into the remainder, the quotient bit takes
+    /// its place.
     #[inline(always)]
     pub fn digit<L: Lane>(&self, division: Division<L>) -> Division<L> {
         let Division { divisor, remainder, digits } = division;

@@ -2,7 +2,7 @@
 //!
 //! The analysis widens every range by the rounding errors that may reach it, and by what a polynomial's
 //! extremes have that no representable x takes. So a format with a bit less than it asks for may hold
-//! everything; whoever states such a format gets it if it does.
+//! everything; a configuration that states such a format gets it if it does.
 
 use crate::budget::BudgetError;
 use crate::datapath::Datapath;
@@ -12,7 +12,7 @@ use crate::format::QFormat;
 pub(super) struct Doubt {
     /// 0 for the variable, 1 for t1, 2 for t2.
     pub line: usize,
-    /// The format.
+    /// The format that the configuration states for it.
     pub stated: QFormat,
     /// What the analysis says.
     pub refusal: BudgetError,

@@ -34,23 +34,23 @@ pub use shares::Share;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DesignError {
-    /// The configuration itself.
+    /// The configuration contradicts itself.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// Its exponents.
+    /// A method has no fit for one of the exponents.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// Its widths.
+    /// No widths keep the budget, or a stated width is too small.
     #[error(transparent)]
     Budget(#[from] BudgetError),
-    /// A ROM field.
+    /// A ROM field does not hold the value of a row.
     #[error("ROM field {field} at n = {exponent}: {source}")]
     Quantise {
-        /// The field.
+        /// The field's name, as in the ROM's layout.
         field: &'static str,
-        /// The exponent.
+        /// The row's exponent.
         exponent: f64,
-        /// What is wrong.
+        /// What is wrong with the value or the format.
         source: QuantiseError,
     },
 }
@@ -119,7 +119,7 @@ impl Design {
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }
 
-    /// The configuration.
+    /// The configuration from which this design follows.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
@@ -138,13 +138,13 @@ impl Design {
         &self.bounds
     }
 
-    /// The data path.
+    /// The data path: integers in, integers out, without a clock.
     #[must_use]
     pub const fn datapath(&self) -> &Datapath {
         &self.datapath
     }
 
-    /// The ROM.
+    /// The ROM that the data path reads, row by row.
     #[must_use]
     pub const fn rom(&self) -> &Rom {
         self.datapath.rom()

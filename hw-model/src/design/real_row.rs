@@ -11,7 +11,7 @@ use crate::rounding::{Rounding, round_shift};
 /// What one row means in real numbers, and where its parts meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RealRow {
-    /// n.
+    /// The row's exponent n, 1 or more.
     pub exponent: f64,
     /// p = 1 − q: the epicentre is 0 ≤ s ≤ p in s = 1 − x.
     pub epicentre: f64,
@@ -31,7 +31,7 @@ pub struct RealRow {
     pub shift: u32,
 }
 
-/// The second segment.
+/// The second segment of a row, which answers between the cut and the hand-over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outer {
     /// The cubic, counted from the hand-over.

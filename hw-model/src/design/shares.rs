@@ -14,7 +14,7 @@ pub struct Share {
     pub register: &'static str,
     /// The most its rounding shows in the result over all rows, in output ulp.
     pub ulp: f64,
-    /// The row where.
+    /// The exponent of the row where it shows most.
     pub exponent: f64,
     /// The worst row's whole bound with a fraction bit less, in output ulp; A, B and D give up theirs
     /// together. None where the number of bits is not the budget's to choose.

@@ -40,7 +40,7 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
 impl DoubleDouble {
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
-    /// The nearest f64.
+    /// The nearest f64: all but the low 53 bits.
     pub const fn to_f64(self) -> f64 {
         self.hi
     }
@@ -135,7 +135,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
-    /// `DWTimesDW2`.
+    /// The product, by algorithm `DWTimesDW2` of the paper named above.
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.hi, other.hi);
         let cross = self.hi.mul_add(other.lo, self.lo * other.hi);

@@ -23,7 +23,7 @@ use crate::highlight::Cubic;
 pub(super) struct Differences {
     /// −D1 − 1 = q·P/p, of size n − 1.
     pub first_less_one: DoubleDouble,
-    /// Δ.
+    /// Δ = D2·p, the change of the divided difference.
     pub bend: DoubleDouble,
 }
 

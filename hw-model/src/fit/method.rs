@@ -31,7 +31,8 @@ pub enum Method {
 /// A name that is not a method's.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{0:?} is not a method; choose one of hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick"
+    "{0:?} is not a method; choose one of hermite, three_point, tangent, minimax, quadratic, rational, composite, \
+     schlick"
 )]
 pub struct UnknownMethod(pub String);
 

@@ -39,7 +39,7 @@ use crossing::WideCrossing;
 pub struct Fit {
     /// Where the epicentre begins: x = q = Q^(1/n), s = p = 1 − q.
     pub epicentre: Crossing,
-    /// The function.
+    /// The function of x that approximates x^n.
     pub curve: Curve,
 }
 

@@ -22,7 +22,7 @@ const LEAST_EXPONENT: i64 = -1074;
 /// Significant bits of an f64.
 const SIGNIFICANT: i64 = 53;
 
-/// x^n, exactly.
+/// x^n as an exact ratio of integers: a numerator over a power of two.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExactPower {
     numerator: UBig,
@@ -44,12 +44,13 @@ pub enum ExactError {
     },
     /// The power has too many bits.
     #[error(
-        "{fraction} fraction bits to the power {exponent} exceed {MAX_BITS} bits; use a smaller exponent or fewer fraction bits"
+        "{fraction} fraction bits to the power {exponent} exceed {MAX_BITS} bits; use a smaller exponent or fewer \
+         fraction bits"
     )]
     TooLarge {
         /// The fraction bits of x.
         fraction: u32,
-        /// The exponent.
+        /// The integer exponent n that was asked for.
         exponent: u32,
     },
 }

@@ -28,7 +28,7 @@ const HALVINGS: u32 = 55;
 pub struct Region {
     /// Its end nearer to the highlight.
     pub s_low: f64,
-    /// Its far end.
+    /// Its end farther from the highlight.
     pub s_high: f64,
 }
 
@@ -105,9 +105,9 @@ impl ApproximationError {
 
 /// What is measured: a value at x = 1 − s, and its slope against s.
 pub trait Approximant {
-    /// The value.
+    /// The value at x = 1 − s.
     fn value_at_s(&self, s: f64) -> f64;
-    /// The slope.
+    /// The derivative of the value with respect to s.
     fn slope_at_s(&self, s: f64) -> f64;
 }
 

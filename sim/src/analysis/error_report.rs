@@ -24,19 +24,19 @@ pub const NEAREST: i64 = 64;
 /// x of an exhaustive sweep that make one piece of work for a thread.
 const PIECE: i64 = 1 << 18;
 
-/// What to measure.
+/// What an error report measures, and against which bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// The total error on the epicentre must not exceed this fraction of full intensity.
     pub bound: f64,
-    /// Every representable x.
+    /// True for every representable x, false for corners and an even spread.
     pub exhaustive: bool,
 }
 
 /// The errors of one exponent, as fractions of full intensity (not per cent).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ErrorRow {
-    /// The exponent.
+    /// The exponent of the row, 1 or more.
     pub n: f64,
     /// max |f − x^n| on the epicentre, the method alone, over the continuous x.
     pub approximation_abs: f64,
@@ -52,11 +52,11 @@ pub struct ErrorRow {
     pub input_abs: f64,
     /// The pipeline against x^n at representable x, on the epicentre.
     pub total_abs: f64,
-    /// Where.
+    /// The x at which `total_abs` is reached, 0 to 1.
     pub total_x: f64,
     /// The same on all of [0, 1].
     pub full_range_abs: f64,
-    /// Where.
+    /// The x at which `full_range_abs` is reached, 0 to 1.
     pub full_range_x: f64,
     /// total_abs is within the bound.
     pub holds: bool,
@@ -67,7 +67,7 @@ pub struct ErrorRow {
 /// The errors of every exponent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ErrorReport {
-    /// The configuration's name.
+    /// The name of the configuration.
     pub configuration: String,
     /// The bound that the verdict is against.
     pub bound: f64,

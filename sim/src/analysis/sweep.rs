@@ -21,7 +21,7 @@ const BLOCK: usize = 1024;
 pub struct Peak {
     /// As a fraction of full intensity.
     pub error: f64,
-    /// Bits of x.
+    /// The x where, as bits in the input format.
     pub x: i64,
 }
 
@@ -59,12 +59,12 @@ pub struct RowErrors {
     pub epicentre: Peak,
     /// Pipeline against x^n on all of [0, 1].
     pub full_range: Peak,
-    /// Samples seen.
+    /// The number of samples seen.
     pub samples: u64,
 }
 
 impl RowErrors {
-    /// Nothing seen yet.
+    /// The errors of no sample at all.
     pub const NONE: Self = Self {
         coefficient: Peak::NONE,
         datapath: Peak::NONE,
@@ -93,12 +93,12 @@ impl RowErrors {
 pub enum Xs<'a> {
     /// Every one from `first` to `last`.
     Run {
-        /// The least.
+        /// The least x of the run.
         first: i64,
-        /// The greatest.
+        /// The greatest x of the run.
         last: i64,
     },
-    /// These.
+    /// The x of this list and no others.
     List(&'a [i64]),
 }
 
@@ -171,7 +171,7 @@ fn see(sweep: &mut Sweep<'_>, xs: &[i64], errors: &mut RowErrors) -> Totals {
     sweep.see(xs, errors)
 }
 
-/// See [`see`].
+/// Looks at a block again where its greatest errors can be, after [`see`] has estimated them.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn settle(sweep: &mut Sweep<'_>, xs: &[i64], floors: [f64; 2], errors: &mut RowErrors) {
     sweep.settle(xs, floors, errors);
@@ -180,7 +180,7 @@ fn settle(sweep: &mut Sweep<'_>, xs: &[i64], floors: [f64; 2], errors: &mut RowE
 /// What is known of the total errors of a block: on all of it, and on the part of it on the epicentre.
 #[derive(Debug, Clone, Copy)]
 struct Totals {
-    /// The greatest estimates.
+    /// The greatest estimates, on the whole block and on its part in the epicentre.
     greatest: [f64; 2],
     /// How far an estimate may be off.
     slack: f64,

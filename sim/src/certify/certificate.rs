@@ -50,7 +50,7 @@ impl Sealed for Certificate {
 }
 
 impl Certificate {
-    /// Seals a claim.
+    /// The certificate of a claim: with its statement in words and the seal over both.
     #[must_use]
     pub fn new(claim: Claim) -> Self {
         seal::seal(Self {
@@ -83,7 +83,7 @@ impl Certificate {
         Ok(())
     }
 
-    /// The claim.
+    /// The claim that the certificate proves.
     #[must_use]
     pub const fn claim(&self) -> &Claim {
         &self.claim

@@ -38,7 +38,7 @@ pub struct Refused {
 pub struct Fault {
     /// Such as `claims[0] (hermite, n = 4, epicentre), absolute.upper`.
     pub field: String,
-    /// What is wrong.
+    /// What is wrong with the field, and by how much.
     pub problem: String,
 }
 
@@ -65,7 +65,7 @@ impl Refused {
 /// What was looked at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Checked {
-    /// Enclosures.
+    /// The number of enclosures checked.
     pub enclosures: u64,
     /// Boxes, each with its own interval evaluation.
     pub boxes: u64,

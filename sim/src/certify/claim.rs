@@ -3,7 +3,7 @@
 use hw_model::fit::{Levels, Method};
 use serde::{Deserialize, Serialize};
 
-/// Which x.
+/// The x that a claim is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Region {
@@ -45,12 +45,12 @@ impl Region {
     }
 }
 
-/// Which error.
+/// How an error of a method is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
-    /// |f − x^n|.
+    /// The absolute error |f − x^n|.
     Absolute,
-    /// |f/x^n − 1|.
+    /// The relative error |f/x^n − 1|.
     Relative,
 }
 
@@ -124,11 +124,11 @@ impl Finding {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExponentClaim {
-    /// The method.
+    /// The method that the claim is about.
     pub method: Method,
-    /// n.
+    /// The exponent, 1 or more.
     pub n: f64,
-    /// Which x.
+    /// The x that the claim is about.
     pub region: Region,
     /// max |f − x^n|.
     pub absolute: Finding,
@@ -140,7 +140,7 @@ pub struct ExponentClaim {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EveryClaim {
-    /// The method.
+    /// The method that the claim is about.
     pub method: Method,
     /// sup |f − x^n|.
     pub absolute: Enclosure,
@@ -152,7 +152,7 @@ pub struct EveryClaim {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Claims<T> {
-    /// Q and G.
+    /// The levels Q and G of the methods.
     pub levels: Levels,
     /// One after the other.
     pub claims: Vec<T>,

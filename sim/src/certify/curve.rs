@@ -61,7 +61,7 @@ pub struct Logs {
 }
 
 impl Logs {
-    /// Encloses the logarithms.
+    /// Encloses the logarithms of both levels.
     #[must_use]
     pub fn new(levels: Levels) -> Self {
         let minus_log = |level| -Interval::exactly(level).ln();
@@ -116,7 +116,7 @@ impl<R: Real> Curve<R> {
         Self { h, shape }
     }
 
-    /// f at σ.
+    /// The value f of the method at σ = −n·ln x.
     #[must_use]
     pub fn value(&self, sigma: R) -> R {
         let one = R::exactly(1.0);

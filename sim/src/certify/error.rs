@@ -17,13 +17,13 @@ pub trait ErrorFunction: Sync {
     /// A range that holds every h in question.
     fn h(&self) -> Interval;
 
-    /// The region's σ.
+    /// The range of σ that the region has.
     fn span(&self) -> Span;
 
     /// Not less than |e| anywhere in the box; and the axis to halve it in where that is too much.
     fn greatest(&self, cell: Cell) -> (f64, Axis);
 
-    /// Not more than |e| at a point. h is that of the exponent where there is only one.
+    /// Not more than |e| at a point. h is the exponent's own where there is only one exponent.
     fn least_at(&self, h: f64, sigma: f64) -> f64;
 
     /// Not less than |e| for all σ ≥ far; infinite where that cannot be said.

@@ -39,15 +39,15 @@ pub struct Worst {
     pub output: i64,
 }
 
-/// One ROM row.
+/// The bounds of one ROM row.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HardwareRow {
-    /// n.
+    /// The exponent of the row.
     pub n: f64,
     /// The least x of the epicentre, as bits of the input.
     pub epicentre_from: i64,
-    /// Over the epicentre.
+    /// The greatest error over the epicentre.
     pub epicentre: Worst,
     /// Over all of [0, 1].
     pub full_range: Worst,
@@ -59,9 +59,9 @@ pub struct HardwareRow {
 pub struct Overall {
     /// The exponent of the row that has it (the first one).
     pub n: f64,
-    /// Its lower bound.
+    /// The lower bound of its greatest error, as a fraction of full intensity.
     pub lower: f64,
-    /// Its upper bound.
+    /// The upper bound of its greatest error, as a fraction of full intensity.
     pub upper: f64,
 }
 
@@ -73,7 +73,7 @@ pub struct HardwareClaim {
     pub configuration: Config,
     /// Points, all rows together.
     pub points: u64,
-    /// Over the epicentres.
+    /// The greatest error over the epicentres of all rows.
     pub epicentre: Overall,
     /// Over all of [0, 1].
     pub full_range: Overall,
@@ -88,15 +88,15 @@ pub enum HardwareError {
     /// Its numbers are no f64.
     #[error("a certificate takes formats of at most {EXACT_BITS} fraction bits; {what} has {bits}")]
     TooFine {
-        /// Input or output.
+        /// The port that is too fine: `input` or `output`.
         what: &'static str,
-        /// Its fraction bits.
+        /// The fraction bits of its format.
         bits: u32,
     },
     /// Exhaustion would take too long.
     #[error(transparent)]
     TooMany(#[from] TooManyInputs),
-    /// An exponent.
+    /// A method has no epicentre for one of the exponents.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// There is no row.

@@ -42,7 +42,7 @@ pub(super) fn check_hardware(claim: &HardwareClaim, progress: &dyn Progress) -> 
     Ok(seen)
 }
 
-/// The rows are the configuration's, and the summary is that of the rows.
+/// Checks that the rows are the configuration's, and that the summary follows from the rows.
 fn check_summary(claim: &HardwareClaim, design: &Design) -> Result<(), Fault> {
     let exponents = design.rom().exponents();
     let own = claim.rows.iter().map(|row| row.n);

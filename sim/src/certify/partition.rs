@@ -12,18 +12,18 @@ use crate::interval::Interval;
 /// A box: every h with every σ.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// 1/n.
+    /// The range of h = 1/n, within 0 to 1.
     pub h: Interval,
-    /// −n·ln x.
+    /// The range of σ = −n·ln x, 0 or more.
     pub sigma: Interval,
 }
 
 /// What a box can be halved in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
-    /// σ.
+    /// The axis of σ = −n·ln x.
     Sigma,
-    /// h.
+    /// The axis of h = 1/n.
     H,
 }
 
@@ -47,9 +47,9 @@ pub enum PartitionError {
     /// A sign that means nothing here.
     #[error("position {position}: {found:?} is none of {allowed}")]
     Sign {
-        /// Counted from 0.
+        /// The place of the sign in the text, counted from 0.
         position: usize,
-        /// What stands there.
+        /// The character that stands there.
         found: char,
         /// What may stand there.
         allowed: &'static str,
@@ -57,7 +57,7 @@ pub enum PartitionError {
     /// Nothing is left to divide.
     #[error("position {position}: everything is covered, and the text goes on")]
     TooLong {
-        /// Counted from 0.
+        /// The place in the text, counted from 0.
         position: usize,
     },
     /// Something is left to divide.
@@ -66,7 +66,7 @@ pub enum PartitionError {
     /// Two neighbouring floats have no middle.
     #[error("position {position}: the box is too small to be halved")]
     TooSmall {
-        /// Counted from 0.
+        /// The place in the text, counted from 0.
         position: usize,
     },
 }
@@ -149,7 +149,11 @@ mod tests {
     proptest! {
         /// A random tree: the boxes are those of the area, and every point is in one of them.
         #[test]
-        fn nothing_is_left_out(signs in proptest::collection::vec(0_u8..3, 1..50), h in 0.0_f64..=1.0, sigma in 0.0_f64..=1.0) {
+        fn nothing_is_left_out(
+            signs in proptest::collection::vec(0_u8..3, 1..50),
+            h in 0.0_f64..=1.0,
+            sigma in 0.0_f64..=1.0,
+        ) {
             // Cut off where the tree is complete, and completed by leaves where it is not.
             let mut open = 1;
             let mut text = String::new();

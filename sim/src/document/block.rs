@@ -36,7 +36,7 @@ enum Above {
     NoWord,
 }
 
-/// The block diagram.
+/// Draws the block diagram of a design as SVG.
 pub(super) fn block(design: &Design) -> String {
     let datapath = design.datapath();
     let has = |name: &FieldName| datapath.rom().layout().field(*name).is_some();

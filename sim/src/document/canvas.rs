@@ -14,36 +14,36 @@ pub(crate) type Point = (f64, f64);
 /// Which part of a text stands at its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Anchor {
-    /// Its beginning.
+    /// The place is where the text begins.
     Start,
-    /// Its middle.
+    /// The place is in the middle of the text.
     Middle,
-    /// Its end.
+    /// The place is where the text ends.
     End,
 }
 
 /// Colours, chosen from those of Okabe and Ito and their tints, which people with any common colour
 /// vision deficiency can tell apart. Nothing is said by colour alone.
 pub(crate) mod colour {
-    /// Letters and outlines.
+    /// For letters and outlines.
     pub(crate) const INK: &str = "#1a1a1a";
     /// Words that stand back.
     pub(crate) const QUIET: &str = "#555555";
     /// Grid lines, and wires that carry nothing.
     pub(crate) const FAINT: &str = "#c4c4c4";
-    /// Paper.
+    /// For the background.
     pub(crate) const PAPER: &str = "#ffffff";
-    /// The polynomial.
+    /// For what belongs to the polynomial.
     pub(crate) const BLUE: &str = "#d6e9f5";
-    /// The divider.
+    /// For what belongs to the divider.
     pub(crate) const ORANGE: &str = "#fbe6c5";
-    /// Memory.
+    /// For the ROM.
     pub(crate) const GREEN: &str = "#d3efe6";
     /// What belongs to both parts.
     pub(crate) const GREY: &str = "#ececec";
     /// Cycles to look at.
     pub(crate) const SHADE: &str = "#fdf3d8";
-    /// Registers.
+    /// For registers.
     pub(crate) const REGISTER: &str = "#0072b2";
 }
 
@@ -53,7 +53,7 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// An empty picture.
+    /// A canvas with nothing drawn on it.
     pub(crate) fn new() -> Self {
         Self { group: Group::new().set("font-family", FONT) }
     }
@@ -155,7 +155,7 @@ impl Canvas {
         svg::Node::append(&mut self.group, node);
     }
 
-    /// The picture as text: on white, with a margin; title and description for those who listen.
+    /// The picture as text: on white, with a margin; title and description for screen readers.
     pub(crate) fn finish(self, (width, height): Point, title: &str, description: &str) -> String {
         let (wide, high) = (width + 2.0 * MARGIN, height + 2.0 * MARGIN);
         let document = Document::new()

@@ -8,7 +8,7 @@ pub(super) const PORTS: f64 = 104.0;
 pub(super) const BOX: f64 = 118.0;
 /// Height of a box of a lane.
 pub(super) const LANE: f64 = 62.0;
-/// Between two columns.
+/// The distance between two columns, in SVG units.
 const GAP: f64 = 98.0;
 /// Between two wires above the lanes, or below.
 pub(super) const WIRE: f64 = 24.0;
@@ -18,11 +18,11 @@ const FIRST_WIRE: f64 = 74.0;
 /// One column: a rank, or several in which nothing new begins.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
-    /// Its first rank.
+    /// The first rank that it stands for.
     pub(super) first: usize,
-    /// Its last rank.
+    /// The last rank that it stands for.
     pub(super) last: usize,
-    /// Where it begins.
+    /// The place of its left edge, in SVG units.
     pub(super) left: f64,
 }
 
@@ -32,7 +32,7 @@ impl Column {
         self.left + BOX
     }
 
-    /// Its middle.
+    /// The place of its middle, in SVG units.
     pub(super) fn centre(&self) -> f64 {
         self.left + BOX / 2.0
     }

@@ -148,7 +148,7 @@ pub(super) fn variable(datapath: &Datapath) -> String {
     }
 }
 
-/// Which part answers.
+/// The table of regions: which part answers, and when.
 pub(super) fn regions(datapath: &Datapath) -> Table {
     let mut table = Table::new(&["region", "code", "when", "intensity"]);
     let mut row = |name: &str, code: u8, when: &str, what: &str| {

@@ -41,7 +41,7 @@ pub enum DocumentError {
 /// A configuration to be described.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
-    /// The hardware.
+    /// The design that the pages describe.
     pub design: &'a Design,
     /// The option that chooses the configuration: `--preset compact`.
     pub option: &'a str,

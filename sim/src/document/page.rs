@@ -88,11 +88,11 @@ impl Page<'_> {
 
 /// One line of the list of pages.
 pub(super) struct Entry {
-    /// The configuration.
+    /// The name of the configuration, and of its page.
     pub(super) name: String,
-    /// What it is.
+    /// The description that the configuration has of itself.
     pub(super) description: String,
-    /// Its latency.
+    /// Its latency in clock cycles.
     pub(super) latency: usize,
 }
 

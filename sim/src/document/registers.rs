@@ -12,9 +12,9 @@ use super::words::value;
 /// What a register can hold.
 #[derive(Debug, Clone)]
 pub(super) struct Held {
-    /// The least bits.
+    /// The least value, as the register's bits.
     pub(super) least: i64,
-    /// The greatest bits.
+    /// The greatest value, as the register's bits.
     pub(super) greatest: i64,
     /// The exponent of the row that reaches furthest from 0, where one is known.
     pub(super) furthest: Option<f64>,
@@ -42,7 +42,7 @@ pub(super) struct Facts<'a> {
 }
 
 impl<'a> Facts<'a> {
-    /// Finds out.
+    /// Computes the reach of every register and its share of the error.
     pub(super) fn new(design: &'a Design) -> Self {
         let datapath = design.datapath();
         Self {
@@ -100,7 +100,7 @@ impl<'a> Facts<'a> {
         match (register.name, &self.tail) {
             ("remainder", Some(reach)) => held(0, reach.divisor.greatest.bits - 1, Known::Bound),
             ("region", _) => held(0, self.greatest_region(), Known::Format),
-            // Where the polynomial's greatest value was not found, that of the clamp is all that is known.
+            // Where the polynomial's greatest value was not found, only the clamp's bound is known.
             ("intensity", _) if self.polynomial.is_none() && self.datapath().stages().is_some() => {
                 held(0, self.datapath().output_one(), Known::Bound)
             }

@@ -10,26 +10,26 @@ use crate::run::{StimulusCycle, run};
 /// A request, and what comes of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Request {
-    /// Its address.
+    /// The ROM address that it asks for.
     pub(super) address: u32,
     /// The bits of x.
     pub(super) x: i64,
-    /// Its result.
+    /// What the last rank holds when the result is there.
     pub(super) result: Signals,
 }
 
 /// What one cycle shows, at the rising edge that ends it. Requests are numbers into a list.
 #[derive(Debug, Clone)]
 pub(super) struct Sample {
-    /// rst_i.
+    /// The level of `rst_i`.
     pub(super) reset: bool,
     /// The request that is presented.
     pub(super) presented: Option<usize>,
-    /// in_ready_o.
+    /// The level of `in_ready_o`.
     pub(super) in_ready: bool,
     /// The request in each rank.
     pub(super) ranks: Vec<Option<usize>>,
-    /// out_ready_i.
+    /// The level of `out_ready_i`.
     pub(super) out_ready: bool,
     /// intensity_o, once there was a result.
     pub(super) intensity: Option<i64>,
@@ -40,19 +40,19 @@ pub(super) struct Sample {
 /// Cycles worth a look: the first, the one after the last, and what happens.
 pub(super) type Span = (usize, usize, &'static str);
 
-/// A recorded run.
+/// A run of some cycles that shows one rule of the handshake, recorded.
 pub(super) struct Scenario {
     /// Goes into the name of the file.
     pub(super) name: &'static str,
-    /// What it shows.
+    /// What the run shows, as a heading.
     pub(super) title: &'static str,
     /// The same at length.
     pub(super) words: String,
     /// The requests, in order.
     pub(super) requests: Vec<Request>,
-    /// The cycles.
+    /// What every cycle shows, in order.
     pub(super) samples: Vec<Sample>,
-    /// Where to look.
+    /// The cycles to look at, each span with a word on it.
     pub(super) spans: Vec<Span>,
 }
 
@@ -65,7 +65,7 @@ struct Script {
     requests: Vec<usize>,
     /// True where an address without a word would show nothing: its intensity is 0, as if nothing came.
     words_only: bool,
-    /// Cycles in which nobody takes results.
+    /// Cycles in which `out_ready_i` is low.
     stalled: std::ops::Range<usize>,
     /// Cycles in reset, beside the first.
     reset: std::ops::Range<usize>,

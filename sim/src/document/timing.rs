@@ -16,7 +16,7 @@ const LEFT: f64 = 128.0;
 const HEAD: f64 = 66.0;
 /// How far a bus leans where its value changes.
 const SLANT: f64 = 3.0;
-/// Height of letters.
+/// Heights of letters, in SVG units.
 const SMALL: f64 = 10.5;
 const NORMAL: f64 = 12.0;
 const TITLE: f64 = 14.0;
@@ -25,9 +25,9 @@ const LETTER: f64 = 6.8;
 
 /// What a line shows in each cycle.
 enum Line {
-    /// The clock.
+    /// The clock, which rises at the end of every cycle.
     Clock,
-    /// One bit.
+    /// One bit, with its level in each cycle.
     Bit(Vec<bool>),
     /// Words; none where there is nothing to say.
     Bus(Vec<Option<Word>>),
@@ -40,7 +40,7 @@ struct Word {
     fill: &'static str,
 }
 
-/// The timing diagram.
+/// Draws the timing diagram of a recorded run as SVG.
 pub(super) fn timing(datapath: &Datapath, scenario: &Scenario) -> String {
     let lines = lines(datapath, scenario);
     let column = column(&lines);

@@ -12,11 +12,11 @@ pub type Question = Case;
 /// What the golden model answers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer {
-    /// What was asked.
+    /// The question that this answers: an address and an x.
     pub question: Question,
     /// The intensity, bits in the output format.
     pub intensity: i64,
-    /// The flags.
+    /// The status flags of the result.
     pub status: Status,
     /// The part of the pipeline that answered.
     pub region: Region,

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A testbench in any language can pipe to [`stream()`]: lines are answered as they come, and the answers are
-//! flushed when no complete line is left to read, so that who asks and waits is answered.
+//! flushed when no complete line is left to read, so that a program that waits for its answer gets it.
 
 mod answer;
 mod csv;

@@ -19,7 +19,7 @@ pub trait Dialect {
     /// What stands before the first answer.
     fn header(&self) -> &'static str;
 
-    /// What questions look like, for who wrote none.
+    /// What questions look like, for the message when there was none.
     fn wanted(&self) -> &'static str;
 
     /// The question of a line; none where the line asks nothing (it is empty, a comment or names the columns).
@@ -39,7 +39,7 @@ pub enum StreamError {
     /// A line that is no question.
     #[error("{questions}:{line}: {problem}")]
     Line {
-        /// The file.
+        /// The name of the file, or of standard input.
         questions: String,
         /// The line, counted from 1.
         line: u64,
@@ -55,19 +55,19 @@ pub enum StreamError {
     /// There was no question.
     #[error("{questions}: there is no question; {wanted}")]
     Empty {
-        /// The file.
+        /// The name of the file, or of standard input.
         questions: String,
         /// What there should be.
         wanted: &'static str,
     },
 }
 
-/// Answers every line of `from`, in order, and returns how many were answered. `questions` is for messages; `from` gives
-/// text, as [`TextReader`](vectors::text_file::TextReader) does.
+/// Answers every line of `from`, in order, and returns how many were answered. `questions` is for messages; `from`
+/// gives text, as [`TextReader`](vectors::text_file::TextReader) does.
 ///
 /// # Errors
-/// At the first line that is no question: those before it are answered and written. When writing fails, or reading: then
-/// what was read last is not answered.
+/// At the first line that is no question: those before it are answered and written. When writing fails, or reading:
+/// then what was read last is not answered.
 pub fn stream(
     datapath: &Datapath,
     dialect: &mut dyn Dialect,
@@ -193,7 +193,7 @@ impl<'a> Batch<'a> {
         Ok(())
     }
 
-    /// Everything that was read is answered, and whoever waits for it gets it.
+    /// Everything that was read is answered, and the answers are flushed.
     fn finish(&mut self, to: &mut dyn Write) -> Result<(), StreamError> {
         if !self.questions.is_empty() {
             self.answer(to)?;

@@ -27,7 +27,7 @@ impl Interval {
         Self::new(low.max(0.0), high)
     }
 
-    /// e^t − 1.
+    /// Encloses e^t − 1 for every t in the interval.
     #[must_use]
     pub fn expm1(self) -> Self {
         let Self { low, high } =

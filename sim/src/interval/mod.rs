@@ -27,9 +27,9 @@ pub struct Interval {
 impl Interval {
     /// Every real number: nothing is known.
     pub const UNKNOWN: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
-    /// The number 0.
+    /// The interval that holds 0 alone.
     pub const ZERO: Self = Self { low: 0.0, high: 0.0 };
-    /// The number 1.
+    /// The interval that holds 1 alone.
     pub const ONE: Self = Self { low: 1.0, high: 1.0 };
 
     /// From 0 to 1.
@@ -54,13 +54,13 @@ impl Interval {
         Self::new(low.next_down(), high.next_up())
     }
 
-    /// The lower end.
+    /// The lower end, which belongs to the interval.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// The upper end.
+    /// The upper end, which belongs to the interval.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high

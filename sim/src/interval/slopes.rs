@@ -14,9 +14,9 @@ pub trait Real:
     + Neg<Output = Self>
     + From<Interval>
 {
-    /// e^self.
+    /// e to the power of this number.
     fn exp(self) -> Self;
-    /// e^self − 1.
+    /// e to the power of this number, less 1.
     fn expm1(self) -> Self;
     /// (1 − e^−self)/self, 1 at 0.
     fn phi(self) -> Self;
@@ -41,9 +41,9 @@ impl Real for Interval {
 /// A function of K variables over a box: its range, and the range of each partial derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slopes<const K: usize> {
-    /// Its values.
+    /// The interval of the function's values.
     pub value: Interval,
-    /// Its derivatives.
+    /// The intervals of its derivatives, one for each variable.
     pub slopes: [Interval; K],
 }
 

@@ -16,7 +16,7 @@ pub enum Size {
 /// How a series is marked. The strokes differ, so that curves can be told apart without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Mark {
-    /// A continuous line.
+    /// A line without gaps.
     #[default]
     Solid,
     /// A line of long dashes.
@@ -51,12 +51,12 @@ pub struct Series {
     pub name: String,
     /// The points, in the order in which a line joins them.
     pub points: Vec<(f64, f64)>,
-    /// Line or dots.
+    /// How its points are drawn: a kind of line, or dots.
     pub mark: Mark,
 }
 
 impl Series {
-    /// A curve.
+    /// A curve with this name in the legend, through these points.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>, mark: Mark) -> Self {
         Self { name: name.into(), points, mark }
@@ -74,7 +74,7 @@ impl Series {
 /// A horizontal line that curves are to be held against, such as a bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceLine {
-    /// Its height.
+    /// The y at which the line is drawn.
     pub value: f64,
     /// What it means. Written on the line where it fits and covers no curve, else in the legend.
     pub label: String,
@@ -91,13 +91,13 @@ impl ReferenceLine {
 /// A chart: plain data, all of it public.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chart {
-    /// What is shown.
+    /// What the chart shows, in a few words.
     pub title: String,
-    /// Under which conditions.
+    /// The conditions under which it was measured.
     pub subtitle: Option<String>,
-    /// The horizontal axis.
+    /// The horizontal axis: its title and range.
     pub x_axis: Axis,
-    /// The vertical axis.
+    /// The vertical axis: its title and range.
     pub y_axis: Axis,
     /// The curves, those drawn first below.
     pub series: Vec<Series>,

@@ -9,7 +9,7 @@ pub enum PlotError {
     /// The chart has no series.
     #[error("the chart {title:?} has no series")]
     NoSeries {
-        /// The chart's title.
+        /// The title of the chart.
         title: String,
     },
     /// A series has no points.
@@ -23,9 +23,9 @@ pub enum PlotError {
     NotFinite {
         /// The name of the series, or the label of the reference line.
         name: String,
-        /// The first coordinate.
+        /// The x of the point.
         x: f64,
-        /// The second coordinate.
+        /// The y of the point.
         y: f64,
     },
     /// A value that a logarithmic axis cannot show.
@@ -33,7 +33,7 @@ pub enum PlotError {
     BelowLogarithmic {
         /// The label of the axis.
         axis: String,
-        /// The offending value.
+        /// The value that has no logarithm.
         value: f64,
         /// The least value a logarithmic axis shows.
         least: f64,
@@ -43,9 +43,9 @@ pub enum PlotError {
     Range {
         /// The label of the axis.
         axis: String,
-        /// The lower end.
+        /// The lower end that was given.
         low: f64,
-        /// The upper end.
+        /// The upper end that was given.
         high: f64,
     },
     /// The text handed over is not an SVG.
@@ -54,9 +54,9 @@ pub enum PlotError {
     /// The picture would have no pixels, or more than is sensible.
     #[error("{width} × {height} pixels at scale {scale} is not a size for a picture")]
     Size {
-        /// Width in pixels.
+        /// The width in pixels.
         width: f32,
-        /// Height in pixels.
+        /// The height in pixels.
         height: f32,
         /// Pixels per SVG unit.
         scale: f32,

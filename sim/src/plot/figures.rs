@@ -3,7 +3,7 @@
 use super::axis::LEAST_LOGARITHMIC;
 use super::{Axis, Chart, Mark, ReferenceLine, Scale, Series};
 
-/// A named curve.
+/// A curve with a name for the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     /// The name in the legend.
@@ -13,7 +13,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// A named curve.
+    /// A curve with this name, through these points.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Self { name: name.into(), points }

@@ -3,7 +3,7 @@
 /// The form of a point. The forms differ, so that kinds can be told apart without colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
-    /// A disc.
+    /// A disc around the point.
     Circle,
     /// A square on its side.
     Square,
@@ -13,16 +13,16 @@ pub enum Shape {
     Triangle,
 }
 
-/// A point with a name. Its colour is that of the kind it belongs to.
+/// A point with a name. Its colour is its kind's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spot {
-    /// Its coordinates.
+    /// Its place, in the units of the axes.
     pub at: (f64, f64),
     /// The place of its kind in [`Chart::kinds`](super::Chart::kinds).
     pub kind: usize,
     /// Filled, or an outline.
     pub filled: bool,
-    /// Outlined in black.
+    /// True where it has a black outline.
     pub marked: bool,
     /// What is written beside it; nothing for an empty text.
     pub label: String,
@@ -31,7 +31,7 @@ pub struct Spot {
 /// A kind of points, for the legend.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Kind {
-    /// Its name.
+    /// The name in the legend.
     pub name: String,
     /// The form of its points.
     pub shape: Shape,

@@ -20,8 +20,8 @@ impl Presented {
     }
 }
 
-/// What a place with this normal presents. `viewer` is the direction to the camera; both have length 1. A light at the very
-/// place gives none.
+/// What a place with this normal presents. `viewer` is the direction to the camera; both have length 1. A light at the
+/// very place gives none.
 #[must_use]
 pub fn presented(
     angle: Angle,

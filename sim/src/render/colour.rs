@@ -1,7 +1,7 @@
 //! From linear light to display codes.
 //!
-//! A display code is an integer from 0 to 2^bits − 1. Light is clamped to [0, 1], goes through the transfer curve, times
-//! the greatest code, and is rounded to the nearest integer (half up). It is done by the light at which each code
+//! A display code is an integer from 0 to 2^bits − 1. Light is clamped to [0, 1], goes through the transfer curve,
+//! times the greatest code, and is rounded to the nearest integer (half up). It is done by the light at which each code
 //! begins: those are computed once, correctly rounded, and a code is found by search, so that every machine finds the
 //! same one.
 
@@ -27,7 +27,7 @@ impl Codes {
         Self { begins: (1..=greatest).map(begins).collect(), bits: image.display_bits }
     }
 
-    /// The greatest code.
+    /// The greatest display code, 2^bits − 1.
     #[must_use]
     pub fn greatest(&self) -> u16 {
         self.begins.len() as u16

@@ -15,7 +15,7 @@ pub struct Difference {
     pub greatest: u16,
     /// The mean over all pixels and colours.
     pub mean: f64,
-    /// Pixels that differ.
+    /// The number of pixels with a difference in any colour.
     pub pixels: u64,
     /// Peak signal to noise over all pixels and colours, in decibel: 20·log10(greatest code / RMS difference). None
     /// for equal pictures.
@@ -50,11 +50,11 @@ pub fn difference(one: &Picture, other: &Picture) -> Difference {
 /// The samples of one material, or of all.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MaterialFigures {
-    /// Its name.
+    /// The name of the material.
     pub material: String,
-    /// n.
+    /// The exponent of the material.
     pub exponent: f64,
-    /// Pixels times lights.
+    /// The number of its samples: pixels times lights.
     pub samples: u64,
     /// Of these, x^n ≥ Q.
     pub epicentre: u64,
@@ -148,7 +148,8 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// The cycles of so many requests at this clock, in MHz. Without a request there is no cycle and no rate.
+    /// The cycles that this number of requests takes, and frames a second at this clock, in MHz. Without a request
+    /// there is no cycle and no rate.
     #[must_use]
     pub fn new(pipeline: &Pipeline<'_>, requests: u64, clock_mhz: f64) -> Self {
         let latency = pipeline.design.datapath().rank_count() as u64;

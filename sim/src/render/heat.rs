@@ -1,7 +1,8 @@
 //! Where pipeline and reference differ, and by how many display codes.
 //!
-//! Blue where the pipeline is darker, orange where it is brighter: with light grey between them, a pair that every common
-//! colour vision deficiency tells apart. One code of difference is already a colour, so that nothing hides in the grey.
+//! Blue where the pipeline is darker, orange where it is brighter: with light grey between them, a pair that every
+//! common colour vision deficiency tells apart. One code of difference is already a colour, so that nothing hides in
+//! the grey.
 
 use rayon::prelude::*;
 

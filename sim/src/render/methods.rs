@@ -56,8 +56,8 @@ struct Panel {
     pixels: Vec<[u8; 3]>,
 }
 
-/// x^n and the methods schlick, quadratic, hermite, composite and minimax as a PNG, each in a panel that says by how many
-/// display codes its picture differs from that of x^n.
+/// x^n and the methods schlick, quadratic, hermite, composite and minimax as a PNG, each in a panel that says by how
+/// many display codes its picture differs from that of x^n.
 ///
 /// # Errors
 /// When the words cannot be drawn, or the file not be encoded.

@@ -6,8 +6,8 @@ use png::{BitDepth, ColorType, Encoder, ScaledFloat, SrgbRenderingIntent};
 use super::shading::Picture;
 use crate::scene::Transfer;
 
-/// A picture as PNG. Codes of 8 bits stand as they are; those of 10 or 12 bits are scaled to 16, rounded to the nearest,
-/// from which they come back exactly. The transfer curve stands in the file, so that viewers show both alike.
+/// A picture as PNG. Codes of 8 bits stand as they are; those of 10 or 12 bits are scaled to 16, rounded to the
+/// nearest, from which they come back exactly. The transfer curve stands in the file, so that viewers show both alike.
 ///
 /// # Errors
 /// Never for a picture that has a pixel; the type says what the crate says.
@@ -52,7 +52,7 @@ fn written(
     Ok(file)
 }
 
-/// A code of so many bits on the scale of 16.
+/// A code of `bits` bits on the scale of 16 bits.
 fn scaled(code: u16, bits: u32) -> u16 {
     let greatest = (1_u32 << bits) - 1;
     ((u32::from(code) * 65_535 + greatest / 2) / greatest) as u16

@@ -2,10 +2,10 @@
 
 use crate::scene::{Image, Vector, View};
 
-/// A half-line.
+/// A ray: what can be seen from a place in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Where it begins.
+    /// The place where it begins.
     pub origin: Vector,
     /// Its direction, of length 1.
     pub direction: Vector,

@@ -27,7 +27,7 @@ pub fn bits(x: f64, input: QFormat) -> i64 {
 pub struct MissingExponent {
     /// The material's place in the scene.
     pub index: usize,
-    /// Its exponent.
+    /// The material's exponent.
     pub exponent: f64,
     /// The exponents of the ROM.
     pub available: String,
@@ -45,7 +45,7 @@ pub enum Which {
 /// The requests of one exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// n.
+    /// The exponent that all of its samples have.
     pub exponent: f64,
     /// Where the ROM has it.
     pub address: u32,
@@ -111,7 +111,7 @@ impl<'a> Pipeline<'a> {
         Ok(Self { design, rows, exponents })
     }
 
-    /// The hardware.
+    /// The hardware that is asked.
     #[must_use]
     pub const fn design(&self) -> &Design {
         self.design

@@ -15,7 +15,7 @@ pub use super::angle::Presented as Sample;
 pub struct SurfacePixel {
     /// Row times width plus column, from the upper left.
     pub pixel: u32,
-    /// Index into [`Scene::materials`].
+    /// The place of its material in [`Scene::materials`].
     pub material: u16,
 }
 
@@ -24,7 +24,7 @@ pub struct SurfacePixel {
 pub struct Samples {
     /// Pixels of a row.
     pub width: u32,
-    /// Rows.
+    /// The number of rows of the picture.
     pub height: u32,
     /// Lights of the scene, samples of a surface pixel.
     pub lights: usize,

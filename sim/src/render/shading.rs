@@ -11,7 +11,7 @@ use crate::scene::{Scene, Vector};
 pub struct Picture {
     /// Pixels of a row.
     pub width: u32,
-    /// Rows.
+    /// The number of rows.
     pub height: u32,
     /// Bits of a code.
     pub bits: u32,

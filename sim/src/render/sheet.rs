@@ -9,15 +9,15 @@ use crate::plot::{PlotError, svg_to_pixels};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SheetError {
-    /// Its words.
+    /// The words on it cannot be drawn.
     #[error(transparent)]
     Words(#[from] PlotError),
-    /// Its file.
+    /// The picture cannot be encoded.
     #[error("the PNG cannot be encoded: {0}")]
     Png(#[from] PngError),
 }
 
-/// White paper of so many pixels.
+/// White paper of this size in pixels.
 pub(super) struct Sheet {
     width: usize,
     height: usize,

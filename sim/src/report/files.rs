@@ -44,7 +44,7 @@ const PNG_SCALE: f32 = 2.0;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum FilesError {
-    /// A file.
+    /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// A row that does not become CSV.
@@ -53,12 +53,12 @@ pub enum FilesError {
     /// A report that does not become JSON.
     #[error("error_vs_n.json: {0}")]
     Json(#[from] serde_json::Error),
-    /// A picture.
+    /// A plot cannot be drawn.
     #[error("{name}: {source}")]
     Plot {
-        /// The picture.
+        /// The name of the plot's file, without its end.
         name: &'static str,
-        /// What is wrong.
+        /// Why it cannot be drawn.
         source: PlotError,
     },
 }

@@ -13,7 +13,7 @@ use crate::plot::{PlotError, svg_to_png};
 pub const TABLE: &str = "pareto.csv";
 /// The table that is of one machine.
 pub const TIMING_TABLE: &str = "pareto_timing.csv";
-/// Everything.
+/// The file that has everything: errors, costs, times and synthesis.
 pub const JSON: &str = "pareto.json";
 
 /// The tables, and the same as JSON.
@@ -26,26 +26,26 @@ const PNG_SCALE: f32 = 2.0;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ParetoFilesError {
-    /// A file.
+    /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// A table that does not become CSV, or is none.
     #[error("{name}: {source}")]
     Csv {
-        /// The table.
+        /// The name of the table's file.
         name: &'static str,
-        /// What is wrong.
+        /// Why the row does not become CSV.
         source: csv::Error,
     },
     /// A comparison that does not become JSON.
     #[error("{JSON}: {0}")]
     Json(#[from] serde_json::Error),
-    /// A picture.
+    /// A plot cannot be drawn.
     #[error("{name}: {source}")]
     Plot {
-        /// The picture.
+        /// The name of the plot's file, without its end.
         name: &'static str,
-        /// What is wrong.
+        /// Why it cannot be drawn.
         source: PlotError,
     },
 }

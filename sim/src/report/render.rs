@@ -10,14 +10,14 @@ use crate::scene::{Image, Scene, Transfer};
 /// The pictures of a rendering.
 pub const PICTURES: [&str; 4] = ["reference.png", "pipeline.png", "difference.png", "methods.png"];
 
-/// The tables.
+/// The tables of a rendering.
 pub const TABLES: [&str; 2] = ["render.csv", "render.json"];
 
 /// Why a rendering was not written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RenderFilesError {
-    /// A file.
+    /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// A row that does not become CSV.
@@ -31,21 +31,21 @@ pub enum RenderFilesError {
 /// The figures of a rendering.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RenderReport {
-    /// The scene's name.
+    /// The name of the scene.
     pub scene: String,
-    /// The configuration's name.
+    /// The name of the configuration.
     pub configuration: String,
-    /// `phong` or `blinn`.
+    /// The angle that x is the cosine of: `phong` or `blinn`.
     pub angle: &'static str,
     /// Pixels of a row.
     pub width: u32,
-    /// Rows.
+    /// The number of rows.
     pub height: u32,
     /// Bits of a display code.
     pub display_bits: u32,
-    /// `srgb` or `linear`.
+    /// The transfer curve: `srgb` or `linear`.
     pub transfer: &'static str,
-    /// Lights.
+    /// The number of lights.
     pub lights: usize,
     /// Pixels that show nothing.
     pub background_pixels: u64,

@@ -28,31 +28,31 @@ const GREATEST_DRAWN: f64 = 1e9;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StabilityFilesError {
-    /// A file.
+    /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
     /// A row that does not become CSV.
     #[error("{name}.csv: {cause}")]
     Csv {
-        /// The table.
+        /// The name of the table's file.
         name: &'static str,
-        /// What is wrong.
+        /// Why the row does not become CSV.
         cause: csv::Error,
     },
     /// A part that does not become JSON.
     #[error("{name}.json: {cause}")]
     Json {
-        /// The part.
+        /// The name of the part of the report.
         name: &'static str,
-        /// What is wrong.
+        /// Why its tables do not become JSON.
         cause: serde_json::Error,
     },
-    /// A picture.
+    /// A plot cannot be drawn.
     #[error("{name}: {cause}")]
     Plot {
-        /// The picture.
+        /// The name of the plot's file, without its end.
         name: &'static str,
-        /// What is wrong.
+        /// Why it cannot be drawn.
         cause: PlotError,
     },
 }

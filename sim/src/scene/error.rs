@@ -32,9 +32,9 @@ pub enum SceneError {
     Mesh {
         /// The way to the mesh.
         path: String,
-        /// Its file.
+        /// The path of the mesh, as the scene names it.
         file: String,
-        /// What is wrong.
+        /// What is wrong with it.
         source: MeshError,
     },
 }
@@ -49,7 +49,7 @@ pub enum MeshError {
     /// A line of it.
     #[error(":{line}: {problem}")]
     Line {
-        /// From 1.
+        /// The number of the line, counted from 1.
         line: usize,
         /// What is wrong, and what would be right.
         problem: String,

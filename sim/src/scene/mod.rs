@@ -4,8 +4,8 @@
 //! JSON ─► Description (form) ─► Scene (values checked, meshes loaded) ─► crate::render
 //! ```
 //!
-//! Nothing here knows pixels or hardware: a [`Scene`] is camera, lights, materials and surfaces, and what it can present
-//! to the pipeline follows from them alone.
+//! Nothing here knows pixels or hardware: a [`Scene`] is camera, lights, materials and surfaces, and what it can
+//! present to the pipeline follows from them alone.
 
 mod check;
 pub mod description;
@@ -41,11 +41,11 @@ pub struct Scene {
     pub background: Vector,
     /// Linear colour of the light from everywhere.
     pub ambient_light: Vector,
-    /// At least one.
+    /// The lights, 1 or more.
     pub lights: Vec<Light>,
-    /// At least one.
+    /// The materials, 1 or more.
     pub materials: Vec<Material>,
-    /// At least one.
+    /// The surfaces, 1 or more.
     pub surfaces: Vec<Surface>,
 }
 
@@ -55,17 +55,17 @@ pub struct Scene {
 pub struct View {
     /// Where the camera is.
     pub position: Vector,
-    /// Into the picture.
+    /// The direction into the picture.
     pub forward: Vector,
     /// To the right of it.
     pub right: Vector,
-    /// Upwards in it.
+    /// The direction upwards in the picture.
     pub up: Vector,
     /// Half the height of the picture, at distance 1: the tangent of half the field of view.
     pub half_height: f64,
 }
 
-/// A light.
+/// A light of a scene, without fall-off.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Light {
     /// Where its light comes from.
@@ -79,11 +79,11 @@ pub struct Light {
 pub enum Origin {
     /// From this direction (length 1, towards the light), everywhere.
     Direction(Vector),
-    /// From this place.
+    /// From this place, with the same strength at every distance.
     Place(Vector),
 }
 
-/// A material.
+/// What a surface is made of: its colours and its exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// No other has it.
@@ -101,7 +101,7 @@ pub struct Material {
 /// Something to be seen, and the place of its material in [`Scene::materials`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
-    /// Where it is.
+    /// The shape, with its place.
     pub shape: Shape,
     /// Index of its material.
     pub material: u16,
@@ -112,16 +112,16 @@ pub struct Surface {
 pub enum Shape {
     /// A ball, seen from outside.
     Sphere {
-        /// Its middle.
+        /// The middle of the ball.
         centre: Vector,
-        /// Above 0.
+        /// The radius, above 0.
         radius: f64,
     },
     /// A plane without end, seen from both sides.
     Plane {
         /// A place on it.
         point: Vector,
-        /// Of length 1.
+        /// The normal, of length 1.
         normal: Vector,
     },
     /// A triangle, seen from both sides.

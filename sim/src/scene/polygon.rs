@@ -1,8 +1,8 @@
 //! Polygons into triangles.
 //!
-//! A polygon is seen along the normal of its mean plane (Newell's). Where the fan from its first corner fills it, the fan
-//! is taken: convex polygons, and those that only turn in there. Every other one is cut by ear clipping. A corner that
-//! lies on an edge stays a corner; one that repeats the corner before it does not.
+//! A polygon is seen along the normal of its mean plane (Newell's). Where the fan from its first corner fills it, the
+//! fan is taken: convex polygons, and those that only turn in there. Every other one is cut by ear clipping. A corner
+//! that lies on an edge stays a corner; one that repeats the corner before it does not.
 
 use earcut::Earcut;
 
@@ -73,7 +73,7 @@ fn turn(a: Point, b: Point, c: Point) -> f64 {
 /// A polygon on its mean plane, going round to the left.
 struct Flat {
     points: Vec<Point>,
-    /// Twice its area.
+    /// Twice the area of the polygon.
     area: f64,
     /// A turn below this is none.
     least: f64,
@@ -125,7 +125,7 @@ impl Flat {
         })
     }
 
-    /// Ear clipping.
+    /// Cuts the polygon into triangles by ear clipping.
     fn cut(&self) -> Result<Vec<[usize; 3]>, String> {
         let count = self.points.len();
         if count > MOST_CORNERS {

@@ -23,19 +23,19 @@ impl Vector {
         Self { x, y, z }
     }
 
-    /// The three coordinates.
+    /// The coordinates x, y and z.
     #[must_use]
     pub const fn coordinates(self) -> [f64; 3] {
         [self.x, self.y, self.z]
     }
 
-    /// The scalar product.
+    /// The scalar product of two vectors.
     #[must_use]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
-    /// The vector product.
+    /// The vector product of two vectors, by the right hand.
     #[must_use]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
@@ -45,7 +45,7 @@ impl Vector {
         )
     }
 
-    /// The length.
+    /// The length of the vector.
     #[must_use]
     pub fn length(self) -> f64 {
         self.dot(self).sqrt()

@@ -20,9 +20,9 @@ pub enum Proved {
     BitIdentical,
     /// At most the allowed display codes, of the highlight at full strength in the scene's transfer curve.
     Codes {
-        /// What is allowed.
+        /// The greatest difference that is allowed, in display codes.
         allowed: u16,
-        /// What was found.
+        /// The greatest difference that was found, in display codes.
         greatest: u16,
     },
 }
@@ -33,7 +33,7 @@ pub enum Proved {
 pub struct Display {
     /// Bits of a code.
     pub bits: u32,
-    /// `srgb` or `linear`.
+    /// The transfer curve: `srgb` or `linear`.
     pub transfer: Transfer,
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for Display {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
-    /// n.
+    /// The exponent of this part of the domain.
     pub n: f64,
     /// The least x of the scene, as it was bounded.
     pub least: f64,
@@ -79,21 +79,21 @@ pub struct Part {
 pub struct Certificate {
     format: String,
     version: u32,
-    /// The scene's name.
+    /// The name of the scene.
     pub scene: String,
-    /// What made it.
+    /// The command that made the file, for readers; no claim depends on it.
     pub command: String,
-    /// In words.
+    /// The claim in words, made from the other fields.
     pub statement: String,
-    /// What was proved.
+    /// How alike the answers were proved to be.
     pub proved: Proved,
-    /// The display.
+    /// The display in whose codes a difference is counted.
     pub display: Display,
-    /// The domain.
+    /// The domain, one part for each exponent.
     pub parts: Vec<Part>,
     /// What is answered as.
     pub source: Config,
-    /// What answers.
+    /// The configuration of the specialised hardware.
     pub specialised: Config,
     /// SHA-256 of the file with this field empty.
     sha256: String,
@@ -113,7 +113,7 @@ impl Sealed for Certificate {
 }
 
 impl Certificate {
-    /// Sealed.
+    /// The certificate of these findings, with its statement in words and its seal.
     #[must_use]
     pub fn new(
         scene: &str,

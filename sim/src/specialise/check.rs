@@ -64,19 +64,19 @@ pub enum Refused {
     /// An exponent that one of the two has not, or another domain than the configuration's.
     #[error("parts[{index}], n = {n}: {problem}")]
     Part {
-        /// Its place.
+        /// The place of the part, counted from 0.
         index: usize,
-        /// n.
+        /// The exponent that the part says.
         n: f64,
-        /// What is wrong.
+        /// What is wrong with it.
         problem: String,
     },
     /// It is about something else than what the user asked about.
     #[error("{field}: the certificate is about {said}, and {asked} was asked about")]
     Asked {
-        /// Which field.
+        /// The name of the field.
         field: &'static str,
-        /// What stands there.
+        /// What the certificate says there.
         said: String,
         /// What the user gave.
         asked: String,
@@ -84,7 +84,7 @@ pub enum Refused {
     /// A field says what cannot be.
     #[error("{field}: {problem}")]
     Field {
-        /// Which field.
+        /// The name of the field.
         field: String,
         /// What is wrong, and what would be right.
         problem: String,
@@ -92,11 +92,11 @@ pub enum Refused {
     /// Going through every x again finds something else.
     #[error("{field}: the certificate says {said}, and every x says {found}")]
     Found {
-        /// Which field.
+        /// The name of the field.
         field: String,
-        /// What stands there.
+        /// What the certificate says there.
         said: String,
-        /// What is so.
+        /// What every x says.
         found: String,
     },
 }

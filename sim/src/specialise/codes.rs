@@ -54,8 +54,8 @@ pub fn reduce(
     Ok((design, found))
 }
 
-/// The same parts with an output of so many fraction bits, in widths that keep its error budget; none where there is
-/// no such hardware.
+/// The same parts with an output of this number of fraction bits, in widths that keep its error budget; none where
+/// there is no such hardware.
 fn with_output(
     source: &Design,
     rows: &[Row],

@@ -28,7 +28,7 @@ const MARGIN: f64 = 1e-9;
 /// What is asked with one exponent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// n.
+    /// The exponent that is asked with.
     pub exponent: f64,
     /// No place presents less. 0 also stands for what faces away, which is not asked for.
     pub least: f64,

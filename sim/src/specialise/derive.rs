@@ -27,11 +27,11 @@ pub enum SpecialiseError {
     /// An exponent that the source has not.
     #[error("the ROM of {configuration} has no word for n = {exponent}; it has {available}")]
     MissingExponent {
-        /// The source.
+        /// The name of the source configuration.
         configuration: String,
-        /// n.
+        /// The scene's exponent that has no word.
         exponent: f64,
-        /// What it has.
+        /// The exponents of its ROM.
         available: String,
     },
     /// A list of exponents that cannot be one.
@@ -45,7 +45,7 @@ pub enum SpecialiseError {
 /// The part of the domain that one exponent has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// What is asked.
+    /// The x that the scene presents with this exponent.
     pub demand: Demand,
     /// Where the source has it.
     pub address: u32,

@@ -14,7 +14,7 @@ use crate::analysis::sizing::{Hardware, NAMES, of_design};
 pub struct LeftOut {
     /// What it is, with its unit.
     pub part: String,
-    /// In the source.
+    /// How much of it the source has.
     pub before: u64,
     /// In the specialised hardware.
     pub after: u64,

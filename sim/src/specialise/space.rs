@@ -5,12 +5,12 @@ use std::ops::{Add, Mul, Neg, Sub};
 use crate::interval::Interval;
 use crate::scene::{Image, Vector, View};
 
-/// Three intervals.
+/// A vector whose coordinates are intervals.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Space([Interval; 3]);
 
 impl Space {
-    /// One vector, exactly.
+    /// The vector of intervals that holds one vector alone.
     pub(super) fn exactly(vector: Vector) -> Self {
         Self(vector.coordinates().map(Interval::exactly))
     }
@@ -27,7 +27,7 @@ impl Space {
         Self([y * c - z * b, z * a - x * c, x * b - y * a])
     }
 
-    /// The length, squared.
+    /// The square of the length, for every vector at once.
     pub(super) fn square(self) -> Interval {
         let [x, y, z] = self.0.map(Interval::square);
         x + y + z
@@ -71,9 +71,9 @@ pub(super) struct Rays {
     view: [Space; 4],
     across: Interval,
     upwards: Interval,
-    /// All directions.
+    /// The directions of all rays of the tile.
     pub(super) direction: Space,
-    /// Their length.
+    /// The lengths of these directions.
     pub(super) length: Interval,
 }
 

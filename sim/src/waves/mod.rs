@@ -34,7 +34,7 @@ pub enum WaveFormat {
 }
 
 impl WaveFormat {
-    /// Every format.
+    /// Every format, in the order above.
     pub const ALL: [Self; 2] = [Self::Vcd, Self::Fst];
 
     /// What the names of its files end in, without the dot.

@@ -18,7 +18,7 @@ pub(super) struct VcdSink<W: Write> {
 }
 
 impl<W: Write> VcdSink<W> {
-    /// Writes the header.
+    /// Writes the header, with the names of all signals.
     pub(super) fn new(output: W, hierarchy: &Hierarchy) -> io::Result<Self> {
         let mut vcd = Writer::new(output);
         vcd.timescale(1, TimescaleUnit::NS)?;

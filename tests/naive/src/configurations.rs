@@ -43,7 +43,7 @@ impl Random {
         self.integer(1, times) == 1
     }
 
-    /// One of these.
+    /// One of these choices, each as likely as another.
     pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.integer(0, choices.len() as i64 - 1) as usize]
     }
@@ -247,7 +247,8 @@ fn state_widths(random: &mut Random, config: &mut Config) {
     }
 }
 
-/// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is needed.
+/// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is
+/// needed.
 fn coarser(random: &mut Random, format: QFormat) -> Option<QFormat> {
     let most = format.fraction_bits();
     let fewer = random.integer(0, most.into()).min(random.integer(0, most.into())) as u32;

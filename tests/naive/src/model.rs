@@ -28,9 +28,9 @@ use num_integer::Integer;
 
 /// Bits of the status port, as the table of flags gives them.
 pub const NO_WORD: u8 = 1;
-/// x above 1.
+/// The flag of an x above 1.
 pub const ABOVE_ONE: u8 = 2;
-/// x below 0.
+/// The flag of an x below 0.
 pub const FACING_AWAY: u8 = 4;
 /// The polynomial left [0, 1].
 pub const CLAMPED: u8 = 8;
@@ -56,7 +56,7 @@ impl Exact {
         Self { numerator, denominator }
     }
 
-    /// bits/2^fraction.
+    /// The exact number bits/2^fraction.
     #[must_use]
     pub fn of_bits(bits: impl Into<BigInt>, fraction: u32) -> Self {
         Self::ratio(bits.into(), power_of_two(fraction))
@@ -160,11 +160,11 @@ impl Mul for Exact {
 /// What the registers of the polynomial hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lines {
-    /// The variable.
+    /// The variable of the polynomial, x or u.
     pub v: BigInt,
-    /// After stage 1.
+    /// The register after stage 1.
     pub t1: BigInt,
-    /// After stage 2.
+    /// The register after stage 2.
     pub t2: BigInt,
     /// After stage 3, before the clamp.
     pub t3: BigInt,
@@ -179,9 +179,9 @@ pub struct Answer {
     pub divisor: Option<BigInt>,
     /// `zero`, `polynomial` or `tail`.
     pub region: &'static str,
-    /// The result.
+    /// The intensity, bits in the output format.
     pub intensity: BigInt,
-    /// The flags.
+    /// The flags, one bit each.
     pub status: u8,
 }
 

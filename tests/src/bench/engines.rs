@@ -89,7 +89,7 @@ pub(super) fn processor() -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// Of the results of so many requests, the share that is above 0.
+/// The share of results above 0 among this number of requests.
 #[must_use]
 pub fn share_above_zero(design: &Design, pattern: Pattern, requests: u64) -> f64 {
     match pattern {

@@ -12,7 +12,7 @@ use crate::rtl::simulators::verilator;
 use crate::rtl::workspace::emit;
 use crate::rtl::{Failure, failed};
 
-/// A built simulation.
+/// The program that Verilator built from a configuration's RTL.
 #[derive(Debug, Clone)]
 pub struct Verilated {
     /// Where its ROM image is.
@@ -50,7 +50,7 @@ impl Verilated {
         Ok(Self { directory, program })
     }
 
-    /// Runs so many cycles; `waves` is the file for them.
+    /// Runs this number of cycles; `waves` is the file that gets their waves.
     ///
     /// # Errors
     /// When it fails, or says something else than it should.

@@ -249,15 +249,15 @@ fn write_docs(path: &Path, machine: &str, tables: &str) -> Result<(), Failure> {
          what is compared took turns. Each is the median of {TURNS} turns (3 for the error statistics), with the \
          slowest and the fastest.\n\n\
          - Verilator runs the RTL that `blysk rtl` writes, built with `-O3 -march=native`, under a loop in C++ that \
-         generates the same requests with the same generator, one in every cycle. Two patterns: *sweep*, n = 4 and every \
-         eighth x from 1 down to 1/2, pass after pass; and *random*, an address and an x at random, 1 − x of all \
-         magnitudes. The checksums of {CHECKED} results were equal before anything was timed. Stimulus and checksum are in \
-         every figure of cycles, and these are in time of the processor; the other figures are in time of the clock on \
-         the wall, except VCD.\n\
-         - Verilator computes every register in every cycle. The model computes what is looked at: here the ports alone. \
-         Many cycles at a time take a stream without stalls or resets.\n\
-         - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where x is below the \
-         cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
+         generates the same requests with the same generator, one in every cycle. Two patterns: *sweep*, n = 4 and \
+         every eighth x from 1 down to 1/2, pass after pass; and *random*, an address and an x at random, 1 − x of all \
+         magnitudes. The checksums of {CHECKED} results were equal before anything was timed. Stimulus and checksum \
+         are in every figure of cycles, and these are in time of the processor; the other figures are in time of the \
+         clock on the wall, except VCD.\n\
+         - Verilator computes every register in every cycle. The model computes what is looked at: here the ports \
+         alone. Many cycles at a time take a stream without stalls or resets.\n\
+         - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where \
+         x is below the cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
          - The error statistics are those of `blysk report --exhaustive`.\n{tables}"
     );
     std::fs::write(path, text)

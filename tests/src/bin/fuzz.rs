@@ -221,7 +221,7 @@ fn watch() {
     });
 }
 
-/// One process: runs until its time is over, and leaves the input of each run for whoever looks after its end.
+/// One process: runs until its time is over, and leaves the input of each run for the process that looks after its end.
 fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(), String> {
     let target = Target::find(target).ok_or_else(|| format!("there is no target {target:?}"))?;
     let left = Duration::try_from_secs_f64(number(seconds)?).map_err(|error| error.to_string())?;

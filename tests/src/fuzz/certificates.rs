@@ -1,8 +1,8 @@
 //! Certificates: what is accepted, altered or not, must be true by other means than the checker's.
 //!
-//! An altered certificate is tried as it is, and once more sealed again, as somebody would who wants it believed. Truth
-//! is found without intervals, runs or blocks: real errors in f64 for methods, and every x through the data path by
-//! the scalar way for hardware. What is too much work for one run is left out.
+//! An altered certificate is tried as it is, and once more sealed again, as an attacker would who wants it believed.
+//! Truth is found without intervals, runs or blocks: real errors in f64 for methods, and every x through the data path
+//! by the scalar way for hardware. What is too much work for one run is left out.
 
 use std::sync::atomic::AtomicU64;
 

@@ -8,9 +8,9 @@ use naive::configurations::Random;
 /// What an input looks like, and so what is altered in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// JSON.
+    /// A JSON document, altered node by node.
     Json,
-    /// Lines of tokens.
+    /// Lines of tokens, altered line by line.
     Lines,
     /// Several files in one (`archive`).
     Archive,

@@ -16,12 +16,12 @@ const CHUNK: usize = 1 << 16;
 
 const HARNESS: &str = include_str!("exhaustive.cpp");
 
-/// What was compared.
+/// How many results of a run were compared, and how many differ.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Results.
+    /// The number of results compared.
     pub compared: u64,
-    /// Results that differ.
+    /// The number of results that differ from the model's.
     pub different: u64,
 }
 

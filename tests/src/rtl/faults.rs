@@ -4,18 +4,18 @@ use std::path::Path;
 
 use super::{Failure, failed};
 
-/// One wrong line.
+/// One line of the RTL, written wrongly on purpose.
 #[derive(Debug, Clone, Copy)]
 pub struct Fault {
     /// What is wrong, in a few words.
     pub name: &'static str,
     /// The preset it is planted in.
     pub preset: &'static str,
-    /// The file.
+    /// The name of the RTL file.
     pub file: &'static str,
     /// The right text, which stands there once.
     pub right: &'static str,
-    /// The wrong text.
+    /// The wrong text that takes its place.
     pub wrong: &'static str,
     /// What the verdict must name: a register, or the handshake.
     pub named: &'static str,
@@ -39,7 +39,8 @@ pub const FAULTS: &[Fault] = &[
     fault!("rounding dropped in every line", "compact", "blysk_round_shift.sv",
         "assign added = HALF;" => "assign added = '0;", "front_end.v"),
     fault!("stage 1 adds", "compact", "blysk.sv",
-        ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED)" => ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(0)", "stage1.t1"),
+        ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED)"
+            => ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(0)", "stage1.t1"),
     fault!("stage 2 shifts the addend one place less", "compact", "blysk.sv",
         ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP)" => ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP - 1)", "stage2.t2"),
     fault!("stage 3 drops one bit more", "compact", "blysk.sv",
@@ -51,7 +52,8 @@ pub const FAULTS: &[Fault] = &[
     fault!("x above 1 not clamped", "compact", "blysk_front_end.sv",
         "above_one ? blysk_pkg::X_GREATEST :" => "1'b0 ? blysk_pkg::X_GREATEST :", "front_end.v"),
     fault!("ROM reads a row too far", "compact", "blysk_rom.sv",
-        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0" => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
+        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0"
+            => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
     fault!("v does not wait for stage 3", "compact", "blysk.sv",
         ".value_i(v_at_2), .value_o(v_at_3)" => ".value_i(v), .value_o(v_at_3)", "stage2.v"),
     fault!("the pipeline does not stall", "compact", "blysk_handshake.sv",
@@ -73,7 +75,9 @@ pub const FAULTS: &[Fault] = &[
     fault!("nothing moves in reset", "compact", "blysk_handshake.sv",
         "assign load_o  = advance & offered;" => "assign load_o  = rst_i ? '0 : advance & offered;", " is "),
     fault!("a valid flag out of nothing", "compact", "blysk_handshake.sv",
-        "assign valid_d = (advance & offered)" => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)", "valid flag of rank 2 is 1, expected 0"),
+        "assign valid_d = (advance & offered)"
+            => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)",
+        "valid flag of rank 2 is 1, expected 0"),
     fault!("c1 loads while it stalls", "compact", "blysk.sv",
         ".clk_i, .load_i(load[2:1]), .value_i(c1_chosen)" => ".clk_i, .load_i(2'b11), .value_i(c1_chosen)", ".c1 is"),
     fault!("a stage loads while it stalls", "compact", "blysk_stage.sv",
@@ -95,7 +99,8 @@ pub const FAULTS: &[Fault] = &[
     fault!("quotient not rounded", "paper", "blysk_clamp.sv",
         ".MODE(blysk_pkg::QUOTIENT_ROUNDING)" => ".MODE(0)", "clamp.intensity"),
     fault!("polynomial and tail swapped", "paper", "blysk_clamp.sv",
-        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;" => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
+        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;"
+            => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
 ];
 
 impl Fault {

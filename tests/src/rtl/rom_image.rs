@@ -7,10 +7,10 @@ use super::simulators::Simulator;
 use super::workspace::{Emitted, copy};
 use super::{Failure, failed};
 
-/// A wrong image.
+/// A ROM image that is no image of this ROM.
 #[derive(Debug, Clone)]
 pub struct Wrong {
-    /// In which way.
+    /// In which way it is wrong.
     pub name: &'static str,
     /// Its contents; none where there is no file.
     pub contents: Option<String>,

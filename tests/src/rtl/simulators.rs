@@ -32,7 +32,7 @@ const ICARUS_RELEASES: [&str; 3] = ["11.0", "12.0", "13.0"];
 pub struct Verdict {
     /// The last line: `PASS …` or `FAIL …`.
     pub last: String,
-    /// Everything.
+    /// Everything that the simulation printed.
     pub text: String,
 }
 

@@ -23,10 +23,10 @@ use crate::waves::{Signal, Waves};
 /// Cycles that are replayed in Yosys too: blocks without trouble, with stalls, with bubbles and with both.
 const REPLAYED: usize = 300;
 
-/// What was compared.
+/// How much of two dumps was compared.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Compared {
-    /// Rising edges.
+    /// The number of rising edges.
     pub edges: u64,
     /// Values of signals before an edge.
     pub values: u64,

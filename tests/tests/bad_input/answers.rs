@@ -82,7 +82,7 @@ fn a_log_that_is_none() {
     bench.refused("check --log dut.csv", &["--vectors"]);
 }
 
-/// A bundle that is not what was written judges nobody.
+/// A bundle that is not what was written judges no answers.
 #[test]
 fn vectors_that_are_none() {
     let bench = bench!();

@@ -5,7 +5,7 @@ use std::path::Path;
 use blysk_tests::bench;
 use blysk_tests::cli::SMALL;
 
-/// A directory below a regular file can be made by nobody, root included.
+/// No user, root included, can make a directory below a regular file.
 #[test]
 fn places_that_cannot_be_written() {
     let bench = bench!();

@@ -140,8 +140,8 @@ fn a_manifest_with_numbers_out_of_range() {
     }
 }
 
-/// Near the top of a line of 60 bits neighbouring x cannot be told apart: what registers take is then not found, and the
-/// page says what their formats hold.
+/// Near the top of a line of 60 bits neighbouring x cannot be told apart: what registers take is then not found, and
+/// the page says what their formats hold.
 #[test]
 fn a_page_about_very_wide_registers() {
     let bench = bench!();

@@ -188,7 +188,7 @@ fn unknown_values_fail() {
     fails(&bench, &log, &["FAIL vector 0:", "got 0xxxx (unknown bits)"]);
 }
 
-/// Nobody listens, and the exit status says it all the same.
+/// Standard output is closed, and the exit status gives the verdict all the same.
 #[test]
 fn a_closed_pipe_does_not_hide_a_failure() {
     let bench = bench!();

@@ -165,7 +165,7 @@ fn questions_come_from_everywhere() {
     assert_eq!(bench.good("evaluate --config small.json asked"), plain);
 }
 
-/// Without end: it stops when nobody reads any more.
+/// A stream of questions without end stops when the reader of the answers is gone.
 #[test]
 fn questions_without_end_end_with_their_reader() {
     let bench = bench!();

@@ -145,7 +145,7 @@ fn a_closed_pipe_is_no_error() {
     }
 }
 
-/// A closed pipe does not hide a verdict that nobody could miss in the exit status.
+/// A closed pipe does not change the verdict in the exit status.
 #[test]
 fn the_first_line_of_a_long_table_can_be_had_alone() {
     use std::io::{BufRead, BufReader};

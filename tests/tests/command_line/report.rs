@@ -208,7 +208,7 @@ fn every_preset_has_the_methods_own_error() {
     // 20 exponents of the table are integers up to 256.
     assert_eq!(compared, 5 * 20 * 2, "errors compared");
 
-    // The two figures everyone quotes.
+    // The two figures that the paper is quoted for.
     for (n, printed) in [("64", "0.00506510790"), ("256", "0.00542237003")] {
         let found = number(of[&("paper".to_owned(), n.to_owned())], "approximation_abs");
         assert_eq!(format!("{found:.11}"), printed, "n = {n}");

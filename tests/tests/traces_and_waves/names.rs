@@ -74,7 +74,8 @@ impl Place<'_> {
         }
     }
 
-    /// The line's name for a register called `register` here. In a rank that the line does not include it means nothing.
+    /// The line's name for a register called `register` here. In a rank that the line does not include it means
+    /// nothing.
     fn name(&self, pattern: &str, register: &str) -> String {
         let mut name = pattern.replace("{rank}", &self.design.datapath().rank_name(self.rank));
         name = name.replace("{field}", register).replace("c{i}", register);

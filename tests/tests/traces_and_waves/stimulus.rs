@@ -9,7 +9,7 @@ use hw_model::design::Design;
 pub struct Line {
     /// n, or 0 for one that the ROM does not have.
     pub n: f64,
-    /// Bits of x.
+    /// The bits of x, in the input format.
     pub x: i64,
     pub valid: bool,
     pub ready: bool,

@@ -1,4 +1,4 @@
-//! Reading the log.
+//! Reads a log of answers, CSV with a line for each vector, into bits by column.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

@@ -47,7 +47,7 @@ impl Workers for OneByOne {
 /// What became of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Verdict {
-    /// The fault.
+    /// The fault that is judged.
     pub fault: Fault,
     /// The first vector that kills it; none when no input does.
     pub killed_by: Option<u64>,
@@ -78,7 +78,7 @@ impl Compact {
         set
     }
 
-    /// The vectors.
+    /// The vectors of the smallest set found, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples
@@ -257,7 +257,10 @@ impl Hunt<'_> {
     /// Every x of [0, 1]; every x of the format where a fault looks at x as it was given. Behind the
     /// front end an x beyond [0, 1] is another one with a flag, and the corners have those.
     fn every_x(&self, faults: &[usize]) -> RangeInclusive<i64> {
-        let as_given = |&fault: &usize| matches!(self.faulty[fault].fault(), Fault::Logic(_) if self.faulty[fault].rank() == 1);
+        let as_given = |&fault: &usize| {
+            let faulty = &self.faulty[fault];
+            matches!(faulty.fault(), Fault::Logic(_)) && faulty.rank() == 1
+        };
         let input = self.design.config().input;
         match faults.iter().any(as_given) {
             true => input.min_bits()..=input.max_bits(),

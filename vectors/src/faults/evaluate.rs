@@ -136,7 +136,7 @@ fn rounded(datapath: Datapath, line: RoundingLine, mode: Rounding) -> Option<Dat
 }
 
 impl Faulty<'_> {
-    /// The fault.
+    /// The fault that this hardware has.
     #[must_use]
     pub const fn fault(&self) -> Fault {
         self.fault
@@ -148,7 +148,7 @@ impl Faulty<'_> {
         self.rank
     }
 
-    /// The right hardware.
+    /// The data path without the fault.
     #[must_use]
     pub const fn datapath(&self) -> &Datapath {
         self.model.datapath

@@ -14,11 +14,11 @@ pub const HANDSHAKE: [&str; 3] = ["latency+1", "latency-1", "stall_lost"];
 /// A stored field of a row that is one unit of its last place more or less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FieldFault {
-    /// The row.
+    /// The address of the ROM row.
     pub address: u32,
-    /// The field.
+    /// The field of the row that is wrong.
     pub field: FieldName,
-    /// +1 or −1.
+    /// By how much the stored integer is wrong: +1 or −1 in its last place.
     pub step: i64,
 }
 
@@ -38,19 +38,19 @@ pub enum RoundingLine {
 /// A register of the data path that holds a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum DataRegister {
-    /// The polynomial's variable.
+    /// The polynomial's variable v.
     V,
     /// After stage 1, 2 or 3, counted from 0.
     T(usize),
-    /// The divider's x.
+    /// The x that the divider is given.
     TailX,
-    /// D.
+    /// The divisor D = A − B·x.
     Divisor,
-    /// The remainder.
+    /// The remainder of the division, 0 or more and less than D.
     Remainder,
     /// Dividend bits to come and quotient bits found.
     Digits,
-    /// The result.
+    /// The pipeline's intensity.
     Intensity,
 }
 
@@ -94,10 +94,10 @@ pub enum Logic {
     DigitMissing,
 }
 
-/// One mistake.
+/// One mistake in the hardware: everything else is right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
-    /// A ROM field.
+    /// A ROM field is one unit off in its last place.
     Field(FieldFault),
     /// The row at this address and the next have each other's words.
     Swap(u32),
@@ -105,12 +105,12 @@ pub enum Fault {
     Rounding(RoundingLine, Rounding),
     /// A register of this rank.
     Register(usize, DataRegister, Defect),
-    /// A choice.
+    /// A choice between the lines is wrong.
     Logic(Logic),
 }
 
 impl DataRegister {
-    /// Every one.
+    /// Every register that a fault can damage, in the order of the pipeline.
     pub const ALL: [Self; 9] = [
         Self::V,
         Self::T(0),

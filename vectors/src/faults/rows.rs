@@ -36,7 +36,7 @@ impl<'a> RowFaults<'a> {
         Self { datapath, golden, faults, rows, right: Block::default(), wrong: Block::default() }
     }
 
-    /// The faults.
+    /// The faults of the row's stored fields, in the order of the fields.
     #[must_use]
     pub fn faults(&self) -> &[FieldFault] {
         &self.faults

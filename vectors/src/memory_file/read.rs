@@ -1,4 +1,4 @@
-//! Reading memory files.
+//! Reads memory files as `$readmemh` does: hex words, addresses, comments.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -26,7 +26,7 @@ pub struct Entry {
     pub line: u64,
     /// Its address: one more than the number's before it, or as an `@` says.
     pub address: u64,
-    /// Its value.
+    /// The word, or a number with unknown digits.
     pub value: Value,
 }
 

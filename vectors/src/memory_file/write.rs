@@ -1,4 +1,4 @@
-//! Writing memory files.
+//! Writes memory files: comments that say the layout, then one word a line in hex.
 
 use std::fmt::LowerHex;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ pub struct Header<'a> {
     pub title: &'a str,
     /// What a word is made of.
     pub layout: &'a WordLayout,
-    /// Number of words.
+    /// The number of words that follow.
     pub words: u64,
     /// The command that made the file.
     pub command: &'a str,

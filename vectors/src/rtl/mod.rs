@@ -40,7 +40,7 @@ pub const EXPONENTS: &str = "exponents.mem";
 /// What the generated files are about.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
-    /// The design.
+    /// The design that the RTL, the package and the testbench are written for.
     pub design: &'a Design,
     /// The module under test: [`TOP`], or a designer's own with the same ports.
     pub dut: &'a str,

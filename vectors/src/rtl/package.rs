@@ -99,7 +99,7 @@ impl Section {
         section
     }
 
-    /// Width and sign.
+    /// Constants for the width of a format and for whether it is signed.
     fn format(self, name: &str, format: Option<QFormat>) -> Self {
         let signed = format.is_some_and(QFormat::is_signed);
         self.width(name, format).integer(format!("{name}_SIGNED"), i64::from(signed))
@@ -275,7 +275,8 @@ fn encodings(datapath: &Datapath) -> Section {
         section = section.bits(name, REGION_WIDTH, region as u64);
     }
     section = section.integer("STATUS_WIDTH", datapath.status_width());
-    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for it.
+    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for
+    // it.
     let flags = datapath.status_flags().iter().filter(|(flag, _)| *flag != Status::OUT_OF_DOMAIN);
     flags.fold(section, |section, &(flag, name)| {
         section.integer(format!("STATUS_{}", name.to_uppercase()), flag.bits().trailing_zeros())

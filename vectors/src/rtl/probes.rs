@@ -10,7 +10,7 @@ pub struct Port {
     pub name: &'static str,
     /// Its column in traces; the clock has none.
     pub column: Option<&'static str>,
-    /// Its format.
+    /// The format of the port's bits.
     pub format: QFormat,
 }
 
@@ -39,11 +39,11 @@ pub fn ports(datapath: &Datapath) -> [Port; 10] {
 /// A register of the model with its place in the RTL.
 #[derive(Debug, Clone)]
 pub struct Probe {
-    /// The rank.
+    /// The rank it stands in, counted from 0.
     pub rank: usize,
     /// Its name with its part's: `stage1.t1`.
     pub name: String,
-    /// The model's register.
+    /// The register of the model that holds the same bits.
     pub register: Register,
     /// What it is called in waves, in the scope of its rank: `stage1.t1_q`.
     pub wave: String,

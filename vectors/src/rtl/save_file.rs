@@ -31,13 +31,13 @@ pub enum Names {
     Ranks,
     /// Those of the RTL; they are shown under the names of traces.
     Rtl,
-    /// The ports alone: the module is somebody else's.
+    /// The ports alone: the module is the user's own, with registers of other names.
     Ports,
 }
 
 impl Names {
-    /// Twenty or thirty cycles on the screen: the power of two by which a unit of time is drawn smaller. Our waves count
-    /// ns, the testbench's ps.
+    /// Twenty or thirty cycles on the screen: the power of two by which a unit of time is drawn smaller. Our waves
+    /// count ns, the testbench's ps.
     const fn zoom(self) -> u32 {
         match self {
             Self::Ranks => 7,

@@ -1,4 +1,4 @@
-//! The self-checking testbench.
+//! Writes the self-checking testbench, from a template and the register list.
 
 use askama::Template;
 use hw_model::datapath::Datapath;

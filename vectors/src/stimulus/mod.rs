@@ -103,7 +103,7 @@ impl<'a> Stimulus<'a> {
         self.len() == 0
     }
 
-    /// The corners.
+    /// The corners that the vectors were taken from.
     #[must_use]
     pub const fn corners(&self) -> &Corners {
         &self.corners

@@ -55,7 +55,7 @@ impl Targets {
         }
     }
 
-    /// The targets taken.
+    /// The targets that were taken, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples

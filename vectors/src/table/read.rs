@@ -1,4 +1,4 @@
-//! Reading the table.
+//! Reads `vectors.csv` back, line by line.
 
 use std::fs::File;
 use std::io;
@@ -18,9 +18,9 @@ pub struct TableRow {
     pub index: u64,
     /// Why the case was chosen, as a [`Kind`](crate::Kind) prints itself.
     pub kind: String,
-    /// The input.
+    /// The input: an address and an x.
     pub case: Case,
-    /// The output.
+    /// The expected output, and every register on the way.
     pub expected: Expected,
 }
 

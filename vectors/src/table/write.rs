@@ -1,4 +1,4 @@
-//! Writing the table.
+//! Writes `vectors.csv`: a header, then a line for each vector.
 
 use std::io::{self, Write};
 

@@ -40,14 +40,14 @@ impl TextKind {
     }
 }
 
-/// A configuration.
+/// A configuration of a pipeline, as JSON.
 pub const CONFIGURATION: TextKind = TextKind::whole(
     "configuration",
     16 * MIB,
     "`blysk presets show NAME` prints a configuration to start from",
 );
 
-/// A scene.
+/// A scene, as JSON.
 pub const SCENE: TextKind =
     TextKind::whole("scene", 256 * MIB, "`blysk scene --schema` prints what a scene has");
 
@@ -57,7 +57,7 @@ pub const MESH: TextKind = TextKind {
     ..TextKind::whole("mesh", 512 * MIB, "it has no face; give at least one line `f a b c`")
 };
 
-/// A certificate.
+/// A certificate of `blysk certify` or `blysk specialise`, as JSON.
 pub const CERTIFICATE: TextKind =
     TextKind::whole("certificate", 256 * MIB, "write the certificate again");
 
@@ -79,7 +79,7 @@ pub const PARETO_TABLE: TextKind =
 pub const SYNTHESIS_TABLE: TextKind =
     TextKind::whole("table", 16 * MIB, "`make synth` writes synth.csv");
 
-/// A stimulus file.
+/// A stimulus of `blysk simulate`, as CSV.
 pub const STIMULUS: TextKind = TextKind::lines("stimulus", 512 * MIB);
 
 /// Questions for the golden model, which are answered as they come.

@@ -52,12 +52,12 @@ pub enum TextProblem {
         /// The encoding, as `iconv` calls it.
         name: &'static str,
     },
-    /// Too many bytes.
+    /// The file has more bytes than its kind may have.
     #[error("it has more than the {most} bytes that are read of a {noun}")]
     Long {
         /// What the file is.
         noun: &'static str,
-        /// The most bytes.
+        /// The most bytes that its kind may have.
         most: u64,
     },
     /// A line with too many bytes.
@@ -81,7 +81,7 @@ pub enum TextProblem {
         line: u64,
         /// The place of the byte in its line, counted from 1.
         byte: u64,
-        /// The byte.
+        /// The value of the byte that is not UTF-8.
         value: u8,
     },
 }
@@ -140,9 +140,9 @@ impl From<TextProblem> for io::Error {
 pub struct TextError {
     /// What the file is.
     noun: &'static str,
-    /// The file.
+    /// The path of the file.
     path: PathBuf,
-    /// What is wrong.
+    /// What is wrong with its text.
     problem: TextProblem,
 }
 

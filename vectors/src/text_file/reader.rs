@@ -154,8 +154,8 @@ impl<R: Read> TextReader<R> {
     }
 }
 
-/// Whether a line of ASCII is there, which no other encoding begins with: it is enough, as who writes a line and waits for
-/// an answer writes no more.
+/// Whether a line of ASCII is there, which no other encoding begins with: it is enough, as who writes a line and waits
+/// for an answer writes no more.
 fn is_plain_line(beginning: &[u8]) -> bool {
     let text = beginning.strip_prefix(UTF8_MARK).unwrap_or(beginning);
     text.len() >= 4 && text.contains(&b'\n') && text.is_ascii() && !text.contains(&0)

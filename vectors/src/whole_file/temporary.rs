@@ -73,7 +73,7 @@ impl Temporary {
         Self::make(directory, |path| options.open(path))
     }
 
-    /// An empty directory.
+    /// A new, empty directory in `parent`, hidden and with a name of its own.
     pub(super) fn directory(parent: &Path) -> io::Result<Self> {
         Ok(Self::make(parent, |path| fs::create_dir(path))?.0)
     }
@@ -141,7 +141,7 @@ pub(super) fn parent(path: &Path) -> &Path {
     }
 }
 
-/// A directory for what nobody is to see, gone when it is dropped.
+/// A directory for files that are not output; it and they are gone when it is dropped.
 #[derive(Debug)]
 pub struct Scratch(Temporary);
 
@@ -154,7 +154,7 @@ impl Scratch {
         Temporary::directory(&std::env::temp_dir()).map(Self)
     }
 
-    /// The directory.
+    /// The path of the directory.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.0.path()

@@ -53,7 +53,7 @@ pub(super) struct Best {
 pub(super) enum Digits {
     /// Those of an f64, while hand-over points are looked for.
     Rough,
-    /// 32.
+    /// 32 digits, for the coefficients themselves.
     Full,
 }
 

@@ -24,7 +24,7 @@ pub struct Fitted {
     pub first: Cubic,
     /// The others, in the order of s; where one covers everything (n = 1, 2, 3), none.
     pub further: Vec<Segment>,
-    /// Where each ends, in s; the last end is that of the range.
+    /// Where each segment ends, in s; the last end is the end of the range.
     pub ends: Vec<f64>,
     /// The greatest error of all of them.
     pub error: f64,
@@ -99,7 +99,7 @@ struct Search {
     exponent: f64,
     count: usize,
     range: Range,
-    /// No segment goes further. Nobody asks for that, and an exchange on a range where x^n is all but a spike
+    /// No segment goes further. No configuration needs that, and an exchange on a range where x^n is all but a spike
     /// would not see it.
     far: f64,
     digits: Digits,

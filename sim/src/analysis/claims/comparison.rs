@@ -14,16 +14,16 @@ pub(super) enum Sense {
     AtLeast,
 }
 
-/// Such a claim.
+/// A claim that compares a number with a limit, for every exponent.
 pub(super) struct Comparison<'a> {
     pub(super) id: &'static str,
     pub(super) claim: &'static str,
     pub(super) source: &'static str,
     /// What the number is.
     pub(super) what: &'static str,
-    /// % or times.
+    /// The unit of the number: `%` or `times`.
     pub(super) unit: &'static str,
-    /// In `unit`.
+    /// The limit that the paper states, in `unit`.
     pub(super) limit: f64,
     pub(super) sense: Sense,
     /// The number for an exponent, in `unit`; infinite where it divides by an error of zero.

@@ -3,7 +3,8 @@
 //! A claim about exponents is judged for all of them: from which n it fails is found by bisection over
 //! the integers up to [`GREATEST`], and the answer is then held against every n up to [`EXAMINED`] and
 //! every power of two above. Where the answer rests on the error of a method on its epicentre, the
-//! enclosures of [`crate::certify`] must say the same at the last n and at the next. A claim about a printed formula is judged by what the formula gives.
+//! enclosures of [`crate::certify`] must say the same at the last n and at the next. A claim about a printed formula is
+//! judged by what the formula gives.
 
 mod accuracy;
 mod boundary;
@@ -33,7 +34,7 @@ pub enum Verdict {
     HoldsTo(u64),
     /// True for every integer exponent, and false for some between them.
     HoldsForIntegers,
-    /// False.
+    /// The claim does not hold.
     Fails,
     /// A formula is printed otherwise than the text around it means it.
     Misprint,
@@ -63,7 +64,7 @@ impl Serialize for Verdict {
 /// One number a verdict rests on.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Evidence {
-    /// What was computed.
+    /// What the number is, in words.
     pub what: String,
     /// For which exponent; `None` where it concerns all, or none.
     pub n: Option<f64>,
@@ -95,7 +96,7 @@ pub struct Claim {
     pub verdict: Verdict,
     /// The command that shows it.
     pub command: String,
-    /// The numbers.
+    /// The numbers on which the verdict rests.
     pub evidence: Vec<Evidence>,
 }
 
@@ -110,9 +111,9 @@ pub enum ClaimsError {
         if *.expected { "holds" } else { "fails" }
     )]
     NotMonotone {
-        /// The claim.
+        /// The short name of the claim.
         claim: &'static str,
-        /// The exponent.
+        /// The exponent at which the two ways disagree.
         n: u64,
         /// What the bisection says of it.
         expected: bool,
@@ -123,11 +124,11 @@ pub enum ClaimsError {
         if *.holds { "holds" } else { "fails" }
     )]
     NotConfirmed {
-        /// The claim.
+        /// The short name of the claim.
         claim: &'static str,
         /// The exponent; infinite for all at once.
         n: f64,
-        /// What was computed.
+        /// Whether the claim holds by the first computation.
         holds: bool,
     },
     /// A bound cannot be proved.

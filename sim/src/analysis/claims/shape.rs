@@ -253,7 +253,8 @@ mod tests {
         /// maximum above it.
         #[test]
         fn nothing_is_less(n in 1.0_f64..200.0, x in 0.0_f64..=1.0, k in 3_u32..40) {
-            for (method, levels) in [(Method::Hermite, one_over(18).unwrap()), (Method::ThreePoint, one_over(k).unwrap())] {
+            let (hermite, three_point) = (one_over(18).unwrap(), one_over(k).unwrap());
+            for (method, levels) in [(Method::Hermite, hermite), (Method::ThreePoint, three_point)] {
                 let fit = fit(method, n, levels).unwrap();
                 let cubic = fit.cubic().unwrap();
                 let low = lowest_value(cubic).min(cubic.power.d);

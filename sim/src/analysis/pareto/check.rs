@@ -62,7 +62,7 @@ pub fn differences(
     found
 }
 
-/// A table is of every so many x, the same for all.
+/// The K of a table of every K-th x, which all of its lines share.
 fn one_every(kept: &[Row]) -> Option<String> {
     let every = kept.first()?.every;
     let other = kept.iter().find(|row| row.every != every || row.every == 0)?;
@@ -72,7 +72,7 @@ fn one_every(kept: &[Row]) -> Option<String> {
     ))
 }
 
-/// Who is on the fronts, and dominated by whom, follows from the other columns.
+/// Which contenders are on the fronts, and which dominate the others, follows from the other columns.
 fn fronts(kept: &[Row]) -> impl Iterator<Item = String> {
     let mut made = kept.to_vec();
     stand(&mut made);

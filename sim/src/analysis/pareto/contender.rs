@@ -31,21 +31,21 @@ pub enum ContenderError {
     /// A preset that does not parse.
     #[error("preset {name}: {source}")]
     Config {
-        /// The preset.
+        /// The name of the preset.
         name: &'static str,
-        /// What is wrong.
+        /// What is wrong with the preset's JSON.
         source: ConfigError,
     },
     /// A preset that gives no hardware for these inputs.
     #[error("preset {name} with the input {input} and the exponents {exponents}: {source}")]
     Design {
-        /// The preset.
+        /// The name of the preset.
         name: &'static str,
         /// The format of x.
         input: String,
-        /// The exponents.
+        /// The list of exponents.
         exponents: String,
-        /// What is wrong.
+        /// Why no hardware follows.
         source: Box<DesignError>,
     },
 }
@@ -53,17 +53,17 @@ pub enum ContenderError {
 /// One of those that are compared.
 #[derive(Debug)]
 pub struct Contender {
-    /// Its name.
+    /// Its name in tables, such as `hermite f32` or `preset paper`.
     pub name: String,
     /// The method or function, without the precision: what f32 and f64 have in common.
     pub family: String,
     /// What it computes, in a sentence.
     pub what: String,
-    /// What computes it.
+    /// The processor's formula or the golden model, which gives its values.
     pub engine: Engine,
 }
 
-/// What computes.
+/// What gives the values of a contender: a processor's formula in f32 or f64, or hardware.
 #[derive(Debug)]
 pub enum Engine {
     /// A processor, in f32.
@@ -131,7 +131,7 @@ impl Engine {
 /// Memory that is used again.
 #[derive(Debug, Default)]
 pub(super) struct Work {
-    /// The values.
+    /// The values as f64, one for each sample.
     pub wide: Vec<f64>,
     /// The same before they are f64, where timing leaves them.
     pub single: Vec<f32>,
@@ -144,7 +144,7 @@ pub(super) struct Work {
 pub struct Contenders {
     /// Software first, in the order of the methods; then the presets.
     pub list: Vec<Contender>,
-    /// In words.
+    /// Contenders that cannot take part, each with the reason in a sentence.
     pub left_out: Vec<String>,
 }
 

@@ -1,5 +1,5 @@
 //! The errors of all contenders over all inputs, in one pass: a block of x stays in the first-level cache
-//! while n rises, and with it the running product that is the reference for everybody.
+//! while n rises, and with it the running product that is the reference for all of them.
 //!
 //! The result does not depend on the number of threads: the x are cut into pieces of one size, each
 //! piece is summed up in one order, and the pieces are added in theirs.
@@ -19,14 +19,14 @@ const PIECE: u64 = 1 << 14;
 /// Sums that are kept side by side, because a compiler may not reorder additions by itself.
 const LANES: usize = 16;
 
-/// A greatest error, and where it is: of equal ones that of the least n, and then of the least x.
+/// A greatest error, and where it is: of equal errors the one at the least n, and then at the least x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Worst {
-    /// |value − x^n|.
+    /// |value − x^n|, as a fraction of full intensity.
     pub error: f64,
     /// The place of n.
     pub row: usize,
-    /// Bits of x.
+    /// The x where, as bits in the input format.
     pub x: i64,
 }
 
@@ -43,7 +43,7 @@ impl Worst {
 pub struct Errors {
     /// The greatest; none without samples.
     pub worst: Option<Worst>,
-    /// Their squares' sum.
+    /// The sum of the squares of all errors.
     pub squares: f64,
     /// How many there are.
     pub count: u64,
@@ -86,11 +86,11 @@ impl Errors {
 pub struct ContenderErrors {
     /// Where x^n ≥ Q.
     pub epicentre: Errors,
-    /// Everywhere.
+    /// The errors on all of [0, 1].
     pub whole: Errors,
 }
 
-/// Measures everybody. `epicentres` are the least x of each exponent's epicentre, in bits.
+/// Measures every contender. `epicentres` are the least x of each exponent's epicentre, in bits.
 #[must_use]
 pub fn errors(
     contenders: &[Contender],

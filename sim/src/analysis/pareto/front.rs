@@ -66,7 +66,7 @@ mod tests {
                     None => prop_assert!(!points.iter().any(|p| dominates(p, &points[place]))),
                 }
             }
-            // There is always somebody on the front.
+            // The front is never empty.
             prop_assert!(points.is_empty() || found.contains(&None));
         }
 

@@ -7,11 +7,11 @@ use hw_model::fit::minimax::Fitted;
 use hw_model::highlight::{Cubic, Rational, Segment};
 use num_traits::Float;
 
-/// f32 and f64.
+/// A type of floating-point numbers, f32 or f64, in which methods are computed.
 pub trait Real: Float + Send + Sync + 'static {
-    /// Bits of one.
+    /// The bits that one number takes in a table.
     const BITS: u32;
-    /// The nearest one.
+    /// The number of this type nearest to an f64.
     fn nearest(value: f64) -> Self;
     /// The same number as an f64.
     fn wide(self) -> f64;

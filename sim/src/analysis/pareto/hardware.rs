@@ -19,7 +19,7 @@ impl fmt::Display for Multiplier {
 pub struct HardwareCost {
     /// Clock cycles from request to result.
     pub latency: u64,
-    /// Every multiplier: those of the three stages, then that of the divisor.
+    /// Every multiplier: the three stages', then the divisor's.
     pub multipliers: Vec<Multiplier>,
     /// Bits of the divider: quotient digits times the width of what is subtracted for each. 0 without one.
     pub divider_bits: u64,

@@ -1,4 +1,4 @@
-//! Which x and n everybody is measured at.
+//! The x and n at which every contender is measured.
 
 use hw_model::exponents::Exponents;
 use hw_model::fit::{FitError, Levels, crossing};
@@ -25,7 +25,7 @@ pub enum InputsError {
         "the input {0} is none for x in [0, 1]; use UQ0.n, UQ1.n or Q2.n with n of 1 to {MOST_FRACTION}"
     )]
     NotX(QFormat),
-    /// Too much work.
+    /// More inputs than one run may go through.
     #[error(transparent)]
     TooMany(#[from] TooManyInputs),
 }
@@ -36,7 +36,7 @@ pub enum InputsError {
 pub struct Inputs {
     /// The format of x.
     pub format: QFormat,
-    /// The exponents.
+    /// The exponents, one ROM row or table row each.
     pub exponents: Exponents,
     /// 1 for every x.
     pub every: u64,
@@ -111,19 +111,19 @@ impl Inputs {
     }
 }
 
-/// Some x, in every form that somebody takes.
+/// Some x, in every form that a contender takes.
 #[derive(Debug, Clone, Default)]
 pub struct Samples {
     /// Bits in the input format.
     pub bits: Vec<i64>,
     /// The nearest f32: x itself where it has at most 24 bits.
     pub single: Vec<f32>,
-    /// x itself.
+    /// The x as f64, exactly.
     pub double: Vec<f64>,
 }
 
 impl Samples {
-    /// Takes these instead.
+    /// Replaces the samples by these x, given as bits in the input format.
     pub fn fill(&mut self, inputs: &Inputs, bits: impl Iterator<Item = i64>) {
         self.bits.clear();
         self.bits.extend(bits);

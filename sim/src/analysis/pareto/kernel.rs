@@ -36,13 +36,13 @@ pub enum Kernel<T> {
     Composite(Vec<CompositeRow<T>>),
     /// Two cubics in s, zero below.
     Segments(Vec<SegmentsRow<T>>),
-    /// A ratio everywhere.
+    /// x/(A − B·x) on all of [0, 1].
     Rational(Vec<RationalRow<T>>),
-    /// Schlick's formula.
+    /// Schlick's formula x/(n − (n − 1)·x), without a table.
     Schlick(Vec<SchlickRow<T>>),
-    /// The platform's function.
+    /// The platform's `powf`, with the exponent as its table.
     Powf(Vec<PowfRow<T>>),
-    /// Multiplications alone.
+    /// Repeated squaring: multiplications alone, for integer exponents.
     Powers(Vec<u32>),
     /// Straight lines between values of a table.
     Linear(LinearTable<T>),
@@ -95,7 +95,7 @@ impl<T: Real> Kernel<T> {
         Self::Powers(exponents.iter().map(|&n| n as u32).collect())
     }
 
-    /// So many straight lines for each of these exponents; `power` gives x^n.
+    /// A table of `intervals` straight lines for each of these exponents; `power` gives x^n.
     pub(super) fn linear(
         exponents: &[f64],
         intervals: usize,

@@ -1,12 +1,12 @@
-//! Work against precision: what everybody's error costs in time, multipliers and memory, and who is
-//! dominated.
+//! Work against precision: what the error of each contender costs in time, multipliers and memory, and which contenders
+//! are dominated.
 //!
 //! | file | holds |
 //! |---|---|
-//! | `inputs.rs` | which x and n |
-//! | `contender.rs` | who is compared |
+//! | `inputs.rs` | the x and n that are measured |
+//! | `contender.rs` | the contenders |
 //! | `functions.rs`, `kernel.rs` | what a processor computes for a sample, and for many |
-//! | `error.rs` | the errors of all over all inputs |
+//! | `error.rs` | the errors of all contenders over all inputs |
 //! | `timing.rs` | run time, side by side |
 //! | `hardware.rs`, `synthesis.rs` | what hardware costs, derived and measured |
 //! | `front.rs` | the non-dominated set |
@@ -41,13 +41,13 @@ pub use self::table::{ParetoReport, Row, TimingReport, TimingRow};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ParetoError {
-    /// Somebody cannot take part.
+    /// A contender cannot be made for these inputs.
     #[error(transparent)]
     Contender(#[from] ContenderError),
-    /// An exponent.
+    /// A method has no fit for one of the exponents.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// A time.
+    /// A contender, as it is timed, does not compute what was measured.
     #[error(transparent)]
     Timing(#[from] TimingError),
 }
@@ -55,16 +55,16 @@ pub enum ParetoError {
 /// How run time is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TimingOptions {
-    /// Rounds, in each of which everybody has a turn.
+    /// Rounds, in each of which every contender has a turn.
     pub rounds: u64,
     /// What x and n are drawn from.
     pub seed: u64,
 }
 
-/// Measures everybody. `synthesis` are the lines of `synth.csv`, where there are any.
+/// Measures every contender. `synthesis` are the lines of `synth.csv`, where there are any.
 ///
 /// # Errors
-/// When a contender cannot be made for these inputs, or is not, in the loops that are timed, what was measured.
+/// When a contender cannot be made for these inputs, or gives other values in the timed loops than were measured.
 pub fn compare(
     inputs: &Inputs,
     timing: Option<TimingOptions>,

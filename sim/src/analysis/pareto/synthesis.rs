@@ -11,17 +11,17 @@ use hw_model::presets;
 pub struct Synthesis {
     /// The preset, or another configuration.
     pub configuration: String,
-    /// The FPGA.
+    /// The name of the FPGA.
     pub device: String,
-    /// Clock cycles.
+    /// Clock cycles from a request to its result.
     pub latency: u64,
-    /// Look-up tables.
+    /// The number of look-up tables with four inputs.
     pub luts: u64,
-    /// Flip-flops.
+    /// The number of flip-flops.
     pub flip_flops: u64,
-    /// Multiplier blocks.
+    /// The number of multiplier blocks of the FPGA.
     pub dsp_blocks: u64,
-    /// Memory blocks.
+    /// The number of memory blocks of the FPGA.
     pub block_rams: u64,
     /// The clock frequency of the median placement; none where it does not fit.
     pub f_max_mhz: Option<f64>,

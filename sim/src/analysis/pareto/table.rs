@@ -1,4 +1,4 @@
-//! The lines of the tables, and who stands where in them.
+//! The lines of the tables, and the order of the contenders in them.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,54 +13,54 @@ use super::timing::ContenderTimes;
 /// One contender: a line of `pareto.csv`. Errors are fractions of full intensity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
-    /// Its name.
+    /// The name of the contender.
     pub contender: String,
     /// `f32` or `f64` on a processor, or `hardware`.
     pub kind: String,
-    /// 1 where every representable x was seen, else every so many: then greater errors may lie between.
+    /// 1 where every representable x was seen, K where every K-th was: then greater errors may lie between.
     pub every: u64,
     /// The greatest error where x^n ≥ Q.
     pub epicentre_worst: Option<f64>,
-    /// Where.
+    /// The exponent at which `epicentre_worst` is reached.
     pub epicentre_worst_n: Option<f64>,
-    /// Where.
+    /// The x at which `epicentre_worst` is reached.
     pub epicentre_worst_x: Option<f64>,
     /// The root of the mean square there.
     pub epicentre_rms: Option<f64>,
     /// The greatest error on all of [0, 1].
     pub whole_worst: Option<f64>,
-    /// Where.
+    /// The exponent at which `whole_worst` is reached.
     pub whole_worst_n: Option<f64>,
-    /// Where.
+    /// The x at which `whole_worst` is reached.
     pub whole_worst_x: Option<f64>,
     /// The root of the mean square.
     pub whole_rms: Option<f64>,
     /// Bits of table or ROM, all exponents together.
     pub storage_bits: u64,
-    /// Clock cycles.
+    /// Hardware: clock cycles from a request to its result.
     pub latency: Option<u64>,
     /// The operands of every multiplier.
     pub multipliers: Option<String>,
-    /// Partial-product bits.
+    /// Hardware: partial-product bits, the products of both operands' widths, summed.
     pub multiplier_bits: Option<u64>,
     /// Quotient digits times divisor bits.
     pub divider_bits: Option<u64>,
     /// Not dominated in error on the epicentre, multipliers, divider, ROM and latency.
     pub hardware_epicentre_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub hardware_epicentre_dominated_by: Option<String>,
     /// The same with the error on all of [0, 1].
     pub hardware_whole_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub hardware_whole_dominated_by: Option<String>,
-    /// What it computes.
+    /// What the contender computes, in a sentence.
     pub what: String,
 }
 
 /// The times of one contender: a line of `pareto_timing.csv`, in ns per sample.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TimingRow {
-    /// Its name.
+    /// The name of the contender.
     pub contender: String,
     /// As in the table of errors: how many x the errors are of that the fronts are about.
     pub every: u64,
@@ -68,40 +68,40 @@ pub struct TimingRow {
     pub block_median: f64,
     /// A quarter of the rounds took at most this.
     pub block_lower_quartile: f64,
-    /// Three quarters.
+    /// Three quarters of the rounds took at most this.
     pub block_upper_quartile: f64,
-    /// The quickest round.
+    /// The time of the quickest round.
     pub block_least: f64,
     /// An exponent for each sample, where there is such a way: the median.
     pub mixed_median: Option<f64>,
     /// A quarter of the rounds took at most this.
     pub mixed_lower_quartile: Option<f64>,
-    /// Three quarters.
+    /// Three quarters of the rounds took at most this.
     pub mixed_upper_quartile: Option<f64>,
-    /// The quickest round.
+    /// The time of the quickest round.
     pub mixed_least: Option<f64>,
     /// Not dominated in time over blocks and in error on the epicentre.
     pub block_epicentre_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub block_epicentre_dominated_by: Option<String>,
     /// The same with the error on all of [0, 1].
     pub block_whole_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub block_whole_dominated_by: Option<String>,
     /// With the time over mixed exponents.
     pub mixed_epicentre_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub mixed_epicentre_dominated_by: Option<String>,
-    /// With both.
+    /// The same with the time over mixed exponents and the error on all of [0, 1].
     pub mixed_whole_front: Option<bool>,
-    /// By whom, if it is.
+    /// The contender that dominates it, if one does.
     pub mixed_whole_dominated_by: Option<String>,
 }
 
 /// Run times: what depends on the machine.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TimingReport {
-    /// Rounds.
+    /// The number of rounds, in each of which every contender has a turn.
     pub rounds: u64,
     /// What x and n were drawn from.
     pub seed: u64,
@@ -113,14 +113,14 @@ pub struct TimingReport {
     pub rows: Vec<TimingRow>,
 }
 
-/// Everybody.
+/// A whole comparison: inputs, contenders, costs and times.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ParetoReport {
     /// The format of x.
     pub input: String,
-    /// The exponents.
+    /// The list of exponents.
     pub exponents: String,
-    /// Every so many x.
+    /// K where every K-th x was seen, 1 for every x.
     pub every: u64,
     /// Every representable x was seen.
     pub exhaustive: bool,
@@ -128,11 +128,11 @@ pub struct ParetoReport {
     pub samples: u64,
     /// Those of them on the epicentre.
     pub epicentre_samples: u64,
-    /// Who does not take part, and why.
+    /// Contenders that cannot take part, each with the reason in a sentence.
     pub left_out: Vec<String>,
     /// One for each contender.
     pub contenders: Vec<Row>,
-    /// What was synthesised.
+    /// What synthesis found for the presets, a line for each preset and device.
     pub synthesis: Vec<Synthesis>,
     /// Run times, where they were measured.
     pub timing: Option<TimingReport>,
@@ -141,7 +141,7 @@ pub struct ParetoReport {
 /// On the front, or dominated by the one of this name; nothing for those that are not compared.
 type Standing = (Option<bool>, Option<String>);
 
-/// The standing of everybody who has these coordinates.
+/// The standing of every contender that has these coordinates.
 fn standings<const AXES: usize>(names: &[String], points: &[Option<[f64; AXES]>]) -> Vec<Standing> {
     let present: Vec<usize> = (0..points.len()).filter(|&at| points[at].is_some()).collect();
     let compared: Vec<[f64; AXES]> = points.iter().flatten().copied().collect();
@@ -165,7 +165,7 @@ pub(super) fn rows(list: &[Contender], errors: &[ContenderErrors], inputs: &Inpu
     rows
 }
 
-/// Fills in who is on the fronts of hardware, which follows from the other columns.
+/// Fills in which contenders are on the fronts of hardware, which follows from the other columns.
 pub(super) fn stand(rows: &mut [Row]) {
     let names: Vec<String> = rows.iter().map(|row| row.contender.clone()).collect();
     let standing = |error: fn(&Row) -> Option<f64>| {

@@ -1,6 +1,6 @@
-//! How long everybody takes, side by side: in every round each contender has a turn with the same x, in an
-//! order that is drawn anew. What disturbs the machine for a while then falls on all alike, and nobody
-//! always follows the same other. A turn begins with a pass that is not timed, so that the caches hold
+//! The run times of all contenders, side by side: in every round each contender has a turn with the same x, in an
+//! order that is drawn anew. What disturbs the machine for a while then falls on all alike, and no contender
+//! always follows the same other one. A turn begins with a pass that is not timed, so that the caches hold
 //! what they hold in a long run.
 //!
 //! Two ways to be asked: blocks of one exponent, as a renderer that sorts by material does, and an
@@ -28,7 +28,7 @@ pub const SAMPLES: usize = 1 << 14;
 pub const PASSES: usize = 4;
 /// Samples of one exponent in a row.
 pub const BLOCK: usize = 1 << 10;
-/// The fewest rounds.
+/// The fewest rounds of which a median and quartiles are taken.
 pub const FEWEST_ROUNDS: u64 = 15;
 
 /// Why a time would mean nothing.
@@ -38,13 +38,13 @@ pub const FEWEST_ROUNDS: u64 = 15;
      where its error was measured"
 )]
 pub struct TimingError {
-    /// Whose.
+    /// The name of the contender.
     pub contender: String,
-    /// n.
+    /// The exponent at which it is off.
     pub exponent: f64,
-    /// x.
+    /// The x at which it is off.
     pub x: f64,
-    /// The error found.
+    /// The error found in the loop that was to be timed.
     pub error: f64,
     /// The greatest error known.
     pub known: f64,
@@ -57,9 +57,9 @@ pub struct Times {
     pub median: f64,
     /// A quarter of them.
     pub lower_quartile: f64,
-    /// Three quarters.
+    /// Three quarters of them.
     pub upper_quartile: f64,
-    /// The quickest.
+    /// The time of the quickest round.
     pub least: f64,
 }
 
@@ -72,7 +72,7 @@ pub struct ContenderTimes {
     pub mixed: Option<Times>,
 }
 
-/// Times everybody in turn.
+/// Times every contender in turn.
 ///
 /// # Errors
 /// When a contender, in the loops that are timed, is further off than its errors say.
@@ -115,7 +115,7 @@ pub fn times(
     Ok(both.collect())
 }
 
-/// ns per sample.
+/// Runs the work once untimed and [`PASSES`] times timed, and returns the time in ns per sample.
 fn timed(work: &mut Work, run: impl Fn(&mut Work)) -> f64 {
     let pass = |work: &mut Work| {
         run(work);
@@ -147,13 +147,13 @@ impl Times {
     }
 }
 
-/// What everybody is asked.
+/// The samples that every contender computes.
 struct Task<'a> {
     inputs: &'a Inputs,
     samples: Samples,
     /// The place of the exponent of each block.
     blocks: Vec<u32>,
-    /// That of each sample.
+    /// The place of the exponent of each sample, in mixed order.
     mixed: Vec<u32>,
 }
 

@@ -38,9 +38,9 @@ pub struct Options {
 /// What was found for one segment of one row. Errors are fractions of full intensity.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Found {
-    /// The exponent.
+    /// The exponent of the row.
     pub n: f64,
-    /// 1, or 2.
+    /// The number of the segment, 1 or 2.
     pub segment: u32,
     /// Representable x that were judged.
     pub samples: u64,
@@ -57,7 +57,7 @@ pub struct Found {
     pub steps: [i32; 4],
 }
 
-/// The whole search.
+/// What the search found for all rows, and the design that has it.
 #[derive(Debug, Clone)]
 pub struct Refined {
     /// The configuration with the steps, its widths stated.
@@ -66,7 +66,7 @@ pub struct Refined {
     pub found: Vec<Found>,
 }
 
-/// A budget that keeps nobody from anything: the highest a configuration may have.
+/// An error budget that refuses no configuration: the highest that one may have, in output ulp.
 pub(crate) const NO_BUDGET: f64 = 1e6;
 
 /// The number of x that all judging goes over, for a progress bar.

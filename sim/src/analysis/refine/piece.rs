@@ -28,13 +28,13 @@ pub enum Range {
 /// Which segment, and its x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Span {
-    /// The row.
+    /// The address of the ROM row.
     pub address: u32,
-    /// The second segment.
+    /// True for the second segment.
     pub outer: bool,
-    /// The least x.
+    /// The least x of the span, bits in the input format.
     pub first: i64,
-    /// The greatest.
+    /// The greatest x of the span, bits in the input format.
     pub last: i64,
 }
 

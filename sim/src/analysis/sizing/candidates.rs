@@ -105,7 +105,7 @@ pub fn least_xs(request: &Request) -> Result<Vec<i64>, FitError> {
 /// What a configuration errs by in real numbers. Over points of each part: it may be a little more in between.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RealError {
-    /// Everywhere.
+    /// The greatest error on all of [0, 1], as a fraction of full intensity.
     pub whole: f64,
     /// The exponent where that is.
     pub n: f64,

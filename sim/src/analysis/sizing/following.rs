@@ -1,5 +1,5 @@
-//! Registers whose width nobody states: t3, whose last place is the output's, and the shifts, which are counts. Their
-//! integer bits follow from what they take.
+//! Registers whose width follows from others: t3, which has the output's fraction bits, and the shifts, which are
+//! counts. Their integer bits follow from the values that they take.
 
 use hw_model::datapath::Signals;
 use hw_model::datapath::reach::Reach;
@@ -11,7 +11,7 @@ use super::SizingError;
 use super::registers::field;
 use super::witness::{Breaks, Fewer, Witness, a_bit_less, seen_at};
 
-/// One of them.
+/// A register whose width follows from others, with the values that it takes.
 struct Following {
     register: &'static str,
     format: Option<QFormat>,
@@ -32,7 +32,8 @@ macro_rules! of_rom {
     };
 }
 
-/// Two witnesses for each: that of the last place is what has it too.
+/// Two witnesses for each such register. The one for the last fraction bit names what settles that bit: the output, or
+/// nothing where there is no fraction bit.
 ///
 /// # Errors
 /// When a register does not hold what it should.

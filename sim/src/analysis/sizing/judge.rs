@@ -1,6 +1,6 @@
 //! The measured error of a design over the range that was asked for.
 //!
-//! A few hundred x of each row decide first, and every x at which anything ever failed; who passes them is
+//! A few hundred x of each row decide first, and every x at which anything ever failed; a design that passes them is
 //! measured at every x of the range. Below its cut, which is not the same in all designs, a zero tail errs by x^n, most
 //! at the x beside the cut, so that the x further down need no look.
 
@@ -27,7 +27,7 @@ const NEAREST: i64 = 24;
 pub struct Place {
     /// As a fraction of full intensity.
     pub error: f64,
-    /// The ROM row.
+    /// The address of the ROM row.
     pub address: u32,
     /// The bits of x.
     pub x: i64,

@@ -3,8 +3,8 @@
 //! What can be built is first held against x^n in real numbers (`candidates`). What remains gets widths that
 //! are proved to keep the error, in every rounding mode, and the designs are ranked by their hardware: multiplier
 //! bits, then ROM bits, then latency, then register bits. The first few are narrowed as far as the measured
-//! error allows (`narrow`), and the least of them is it. Every register then has a witness: one (n, x) at
-//! which a bit less breaks the error or overflows (`witness`).
+//! error allows (`narrow`), and the result is the one with the least hardware. Every register then has a witness: one
+//! (n, x) at which a bit less breaks the error or overflows (`witness`).
 //!
 //! The error of the result is not proved register by register but measured at every x of the range.
 
@@ -58,15 +58,15 @@ impl Over {
 /// What is to be built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// The ROM's exponents.
+    /// The exponents of the ROM.
     pub exponents: Exponents,
-    /// Format of x.
+    /// The format of x.
     pub input: QFormat,
     /// Format of the intensity.
     pub output: QFormat,
     /// The greatest error allowed, as a fraction of full intensity.
     pub error: f64,
-    /// Over which x.
+    /// The x over which the error is to be kept.
     pub over: Over,
     /// How many designs are narrowed.
     pub finalists: usize,
@@ -88,7 +88,7 @@ pub enum Verdict {
 /// A candidate with what became of it.
 #[derive(Debug, Clone)]
 pub struct Considered {
-    /// Its configuration.
+    /// The configuration of the candidate.
     pub config: Config,
     /// The rounding mode; none where the real error decided.
     pub rounding: Option<Rounding>,
@@ -98,18 +98,18 @@ pub struct Considered {
     pub verdict: Verdict,
 }
 
-/// The result.
+/// The least hardware that was found, and what was considered on the way.
 #[derive(Debug, Clone)]
 pub struct Sized {
     /// The design, its widths stated.
     pub design: Design,
-    /// Its hardware.
+    /// The hardware of the design, by the measures that rank it.
     pub hardware: Hardware,
     /// Its greatest error over every x of the range.
     pub worst: Place,
     /// Everything that was considered, the best first.
     pub ranking: Vec<Considered>,
-    /// For every register.
+    /// Two witnesses for every register: one for its last fraction bit, one for its first integer bit.
     pub witnesses: Vec<Witness>,
 }
 
@@ -117,10 +117,10 @@ pub struct Sized {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SizingError {
-    /// A fit.
+    /// A method has no fit for one of the exponents.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// A design.
+    /// A configuration that should give hardware gives none.
     #[error(transparent)]
     Design(#[from] DesignError),
     /// Nothing is near enough.
@@ -131,16 +131,16 @@ pub enum SizingError {
     Nothing {
         /// What was asked for.
         error: f64,
-        /// The nearest candidate.
+        /// The name of the candidate with the least error.
         nearest: String,
-        /// Its real error.
+        /// Its error in real numbers, as a fraction of full intensity.
         real: f64,
-        /// Where.
+        /// The exponent at which it has that error.
         n: f64,
         /// What kept it from being built.
         why: String,
     },
-    /// Nothing was asked.
+    /// The range has no x for any exponent.
     #[error(
         "no exponent has an x in the range: where x^n is that much, x is beyond {input}; ask for a larger range, or an \
          input with more bits"
@@ -152,15 +152,15 @@ pub enum SizingError {
     /// A register could lose a bit.
     #[error("register {register} could have a bit less; please report the command")]
     Spare {
-        /// The register.
+        /// The name of the register.
         register: &'static str,
     },
     /// A witness that does not say what it was called for.
     #[error("the witness of register {register} at n = {n} fails; please report the command")]
     Silent {
-        /// The register.
+        /// The name of the register.
         register: &'static str,
-        /// The exponent.
+        /// The exponent of the witness.
         n: f64,
     },
 }

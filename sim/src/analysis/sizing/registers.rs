@@ -177,7 +177,7 @@ pub struct Hardware {
     pub multiplier_bits: u64,
     /// Depth times width of the ROM.
     pub rom_bits: u64,
-    /// Ranks of registers.
+    /// The number of ranks: clock cycles from a request to its result.
     pub latency: u64,
     /// The widths of the stated registers, summed.
     pub register_bits: u64,

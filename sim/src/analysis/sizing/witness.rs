@@ -21,7 +21,7 @@ pub enum Fewer {
     Integer,
 }
 
-/// What fails.
+/// What fails when a register has a bit less.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Breaks {
     /// The error is this, more than allowed.
@@ -30,7 +30,7 @@ pub enum Breaks {
     Overflow {
         /// Which: its own, or another one.
         register: &'static str,
-        /// Its bits.
+        /// The bits that it takes, as an integer.
         bits: i64,
         /// The format it has then.
         format: QFormat,
@@ -50,7 +50,7 @@ pub enum Breaks {
 /// One register, one end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Witness {
-    /// The register.
+    /// The name of the register.
     pub register: &'static str,
     /// The format that it has.
     pub format: QFormat,
@@ -60,7 +60,7 @@ pub struct Witness {
     pub n: Option<f64>,
     /// The bits of x.
     pub x: i64,
-    /// What fails there.
+    /// What fails at this n and x.
     pub breaks: Breaks,
 }
 

@@ -20,7 +20,7 @@ pub use super::expressions::Way as CoefficientWay;
 
 /// The decimal digits of an f64, log10 2⁵³: what can be lost.
 pub const ALL_DIGITS: f64 = 53.0 * std::f64::consts::LOG10_2;
-/// Half of them.
+/// Half of the decimal digits of an f64.
 pub const HALF_DIGITS: f64 = 0.5 * ALL_DIGITS;
 
 /// Exponents in a decade; n is found to one step of this, 12 %.
@@ -34,7 +34,7 @@ const PAST_ZEROS: f64 = 4.0;
 pub const METHODS: [Method; 5] =
     [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic, Method::Rational];
 
-/// Which coefficients.
+/// The set of coefficients whose digits are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Set {
@@ -68,13 +68,13 @@ impl Set {
 /// What one way loses at one exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Loss {
-    /// The method.
+    /// The method whose coefficients are computed.
     pub method: Method,
-    /// The way.
+    /// The way in which they are computed.
     pub way: Way,
-    /// The coefficients.
+    /// The set of coefficients that is counted.
     pub form: Set,
-    /// The exponent.
+    /// The exponent, 1 or more.
     pub n: f64,
     /// Digits lost by the worst coefficient, against itself: 0 to [`ALL_DIGITS`].
     pub digits_lost: f64,
@@ -87,11 +87,11 @@ pub struct Loss {
 /// Where a way loses half of its digits, and all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Threshold {
-    /// The method.
+    /// The method whose coefficients are computed.
     pub method: Method,
-    /// The way.
+    /// The way in which they are computed.
     pub way: Way,
-    /// The coefficients.
+    /// The set of coefficients that is counted.
     pub form: Set,
     /// What n tends to: infinity (none), or an n at which coefficients vanish.
     pub toward: Option<f64>,
@@ -106,9 +106,9 @@ pub struct Threshold {
 /// Every loss, and where it becomes serious.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CoefficientLosses {
-    /// Q.
+    /// The level Q of the epicentre.
     pub q: f64,
-    /// G.
+    /// The lower level G of `three_point`.
     pub g: f64,
     /// Bits of the exact values.
     pub exact_bits: usize,

@@ -5,8 +5,8 @@
 //! x = 1 and at its worst over the epicentre, where f is at least Q. The power form's a, b, c are of size
 //! n² and cancel to 1; the centred form adds terms of size 1 or less.
 //!
-//! Beside them the condition of k1 = 3a + 2b + c, for whoever converts one form into the other, and that
-//! of x^n against a relative change of x, which is n and nobody's fault.
+//! Beside them the condition of k1 = 3a + 2b + c, for programs that convert one form into the other, and
+//! the condition of x^n against a relative change of x, which is n whatever computes it.
 //!
 //! **Widths.** For a faithful result (less than 1 ulp from the polynomial with real coefficients) of 8, 12,
 //! 16 and 20 bits: the project's own width derivation, for a ROM of exponents 1 to n, at least three in each
@@ -43,13 +43,13 @@ const OCTAVES: [u32; 11] = [0, 2, 4, 6, 8, 10, 12, 14, 17, 20, 29];
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ConditioningError {
-    /// A fit.
+    /// A method has no fit for an exponent.
     #[error(transparent)]
     Fit(#[from] FitError),
     /// A list of exponents.
     #[error(transparent)]
     Exponents(#[from] ExponentsError),
-    /// A format.
+    /// A format of x or of the result that cannot be.
     #[error(transparent)]
     Format(#[from] FormatError),
 }
@@ -57,9 +57,9 @@ pub enum ConditioningError {
 /// The conditions of one cubic.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Condition {
-    /// The method.
+    /// The method that gives the cubic.
     pub method: Method,
-    /// The exponent.
+    /// The exponent, 1 or more.
     pub n: f64,
     /// Σ|term|/f of the power form at x = 1.
     pub power_at_one: f64,
@@ -76,13 +76,13 @@ pub struct Condition {
 /// The widths of one pipeline, or why there is none.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Widths {
-    /// The method.
+    /// The method that gives the cubics.
     pub method: Method,
     /// Fraction bits of the result.
     pub output_bits: u32,
     /// The greatest exponent of the ROM.
     pub greatest_n: f64,
-    /// The form.
+    /// The form in which the polynomial is evaluated.
     pub form: Form,
     /// The format of x.
     pub input: String,
@@ -104,16 +104,16 @@ pub struct Widths {
     pub refused: Option<String>,
 }
 
-/// Both tables.
+/// The table of conditions and the table of the widths that they cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Conditioning {
-    /// Q.
+    /// The level Q of the epicentre.
     pub q: f64,
-    /// G.
+    /// The lower level G of `three_point`.
     pub g: f64,
-    /// Against n.
+    /// The conditions of each method against n.
     pub conditions: Vec<Condition>,
-    /// What it costs.
+    /// The widths of pipelines for 8 to 20 bits.
     pub widths: Vec<Widths>,
 }
 

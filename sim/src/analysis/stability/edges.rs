@@ -2,9 +2,9 @@
 //!
 //! **Variants.** The configuration as it is; with each other rounding mode; with a signed input, where its own
 //! has no negative x; with 1-bit and with 63-bit formats of input, output and both, and with the finest output
-//! that can be had. Variants keep the first and the last exponent and the powers of two between. A mode that rounds one way needs a larger error
-//! budget: it is doubled until the widths can be had, and said. What cannot be had is there with
-//! the reason.
+//! that can be had. Variants keep the first and the last exponent and the powers of two between. A mode that rounds one
+//! way needs a larger error budget: it is doubled until the widths can be had, and said. What cannot be had is there
+//! with the reason.
 //!
 //! **x.** 0, 1, q, the cut, one ulp beside each, the least and the greatest of the format, where the format has
 //! them. An answer holds when it has the flags it should have, and lies no further from the method
@@ -38,13 +38,13 @@ pub struct Variant {
     pub input: String,
     /// The format of the intensity.
     pub output: String,
-    /// The mode.
+    /// The rounding mode of every line.
     pub rounding: Rounding,
     /// The error budget it was built with, in ulp; the configuration's own or a multiple of it.
     pub budget_ulp: f64,
     /// The greatest proved bound, in ulp.
     pub bound_ulp: Option<f64>,
-    /// Answers looked at.
+    /// The number of answers looked at.
     pub answers: usize,
     /// Those that do not hold.
     pub failures: usize,
@@ -54,26 +54,26 @@ pub struct Variant {
     pub refused: Option<String>,
 }
 
-/// An answer.
+/// The answer to one input at an edge of x, n or a format.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Edge {
-    /// The variant.
+    /// The name of the variant that answers.
     pub variant: String,
     /// The exponent; none for an address without a word.
     pub n: Option<f64>,
-    /// The ROM address.
+    /// The ROM address of the input.
     pub address: u32,
-    /// Which x.
+    /// Which edge of x it is, in words.
     pub case: &'static str,
-    /// Its bits.
+    /// x as bits in the input format.
     pub x_bits: i64,
-    /// Its value.
+    /// x as a real number.
     pub x: f64,
     /// The bits of the answer.
     pub intensity_bits: i64,
-    /// Its value.
+    /// The answer as a real number.
     pub intensity: f64,
-    /// Its flags.
+    /// The names of the flags that are set.
     pub status: String,
     /// x^n, x taken into [0, 1]; none without an exponent.
     pub reference: Option<f64>,
@@ -87,16 +87,16 @@ pub struct Edge {
     pub holds: bool,
 }
 
-/// All of them.
+/// The answers of all variants, and the ROM words at the edges of their formats.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EdgeReport {
-    /// The configuration's name.
+    /// The name of the configuration.
     pub configuration: String,
-    /// What was tried.
+    /// The configurations that were tried.
     pub variants: Vec<Variant>,
-    /// The ROM's words.
+    /// The ROM's fields at the edges of their formats.
     pub words: Vec<Word>,
-    /// Every answer.
+    /// Every answer, one row each.
     pub rows: Vec<Edge>,
 }
 

@@ -12,7 +12,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// What computes x^n.
+/// A function that computes x^n in f64.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Function {
@@ -20,14 +20,14 @@ pub enum Function {
     Phong,
     /// The reference at s = 1 − x, also where x is no f64: within 4·2⁻⁵³ of x^n, it says.
     PhongAtS,
-    /// `f64::powf`.
+    /// `f64::powf` of the platform's library.
     StdPowf,
     /// `f64::powi`, for integer n.
     StdPowi,
 }
 
 impl Function {
-    /// Every function.
+    /// Every function, in the order above.
     pub const ALL: [Self; 4] = [Self::Phong, Self::PhongAtS, Self::StdPowf, Self::StdPowi];
 
     /// The name in tables.
@@ -56,25 +56,25 @@ impl Function {
 /// One function over the exponents from `n_from` to below `n_to`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReferenceRow {
-    /// The function.
+    /// The function that was asked.
     pub function: Function,
     /// The least exponent of the row.
     pub n_from: f64,
     /// The least exponent beyond it.
     pub n_to: f64,
-    /// Powers computed.
+    /// The number of powers computed.
     pub samples: u64,
     /// Those that are not the f64 nearest to x^n.
     pub not_nearest: u64,
     /// The greatest error, in ulp of x^n.
     pub worst_ulp: f64,
-    /// The x where.
+    /// The x of the greatest error.
     pub worst_x: f64,
-    /// The exponent where.
+    /// The exponent of the greatest error.
     pub worst_n: f64,
 }
 
-/// All of them.
+/// The errors of every function over all octaves of n.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReferenceReport {
     /// What the random samples were drawn from.

@@ -58,7 +58,7 @@ impl Real for f64 {
 pub(super) struct Wide<const BITS: usize = PRECISION>(FBig<HalfEven, 2>);
 
 impl<const BITS: usize> Wide<BITS> {
-    /// The nearest f64.
+    /// The f64 nearest to this number.
     pub(super) fn to_f64(&self) -> f64 {
         self.0.to_f64().value()
     }

@@ -15,13 +15,13 @@ use super::edges::cases;
 /// A ROM field at an edge of its format.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Word {
-    /// The field.
+    /// The name of the ROM field.
     pub field: &'static str,
-    /// Its format.
+    /// The format of the field.
     pub format: String,
     /// `least`, `greatest`, or `a bit less`.
     pub edge: &'static str,
-    /// Passages looked at.
+    /// The number of passages looked at.
     pub passages: usize,
     /// Those in which a register cannot hold its value.
     pub overflowing: usize,
@@ -50,7 +50,7 @@ pub fn words(design: &Design, addresses: &[u32]) -> Vec<Word> {
     let mut all = Vec::new();
     for name in COEFFICIENTS {
         let Some(field) = design.rom().layout().field(name) else { continue };
-        // A constant is no word of the ROM: nobody can write another into it.
+        // A constant is no word of the ROM: no other value can be written into it.
         if matches!(field.place, Place::Stored { .. }) {
             let (least, greatest) = (field.format.min_bits(), field.format.max_bits());
             all.push(altered(design, addresses, name, field.format, "least", least));

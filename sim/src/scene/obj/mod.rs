@@ -27,9 +27,9 @@ const MOST_VECTORS: usize = 1 << 24;
 /// A corner of a face: places in the lists of an [`Obj`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Corner {
-    /// In [`Obj::positions`].
+    /// Its place in [`Obj::positions`].
     pub position: usize,
-    /// In [`Obj::normals`].
+    /// Its normal's place in [`Obj::normals`], where the file gives one.
     normal: Option<usize>,
 }
 
@@ -40,12 +40,12 @@ impl Corner {
     }
 }
 
-/// A face.
+/// A face as the file lists it, before it is cut into triangles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Face<'a> {
     /// Its line, counted from 1.
     pub line: usize,
-    /// Three or more.
+    /// The corners, 3 or more.
     pub corners: &'a [Corner],
 }
 
@@ -61,9 +61,9 @@ pub(super) struct Normal {
 /// What an OBJ file says. Every index is one of its list.
 #[derive(Debug, Default)]
 pub(super) struct Obj {
-    /// The `v`.
+    /// The positions, one for each `v`.
     pub positions: Vec<Vector>,
-    /// The `vn`.
+    /// The normals, one for each `vn`.
     normals: Vec<Normal>,
     texture_coordinates: usize,
     corners: Vec<Corner>,

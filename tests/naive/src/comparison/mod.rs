@@ -13,7 +13,7 @@ use crate::Naive;
 
 pub use rom::rom;
 
-/// What went wrong.
+/// The kinds of difference between the naive model and the golden one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A register holds something other than the naive model says.
@@ -33,7 +33,7 @@ pub enum Kind {
 /// One complaint, with everything needed to see it again.
 #[derive(Debug, Clone)]
 pub struct Complaint {
-    /// What went wrong.
+    /// The kind of difference.
     pub kind: Kind,
     /// Where, and the two values.
     pub text: String,

@@ -98,8 +98,8 @@ fn end(design: &Design, row: &Row, name: FieldName) -> BigInt {
         .into_register(design.config().input.fraction_bits(), Rounding::Floor)
 }
 
-/// An end in the unit of x, as the stated format has it: the cut rounded down, the hand-over to the nearest (a tie to the
-/// even one).
+/// An end in the unit of x, as the stated format has it: the cut rounded down, the hand-over to the nearest (a tie to
+/// the even one).
 fn stated_end(design: &Design, name: FieldName, exact: BigInt) -> BigInt {
     let widths = &design.config().widths;
     let (stated, mode) = match name {

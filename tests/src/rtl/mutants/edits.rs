@@ -12,15 +12,15 @@ use crate::rtl::{Failure, failed};
 /// A change of one place of one file.
 #[derive(Debug, Clone)]
 pub struct Edit {
-    /// The fault's name.
+    /// The name of the fault, for tables.
     pub name: String,
     /// The fault of the model that this is; none where a vector on its own cannot show it.
     pub fault: Option<Fault>,
-    /// The file.
+    /// The name of the RTL file.
     pub file: &'static str,
     /// What stands there, once.
     pub right: String,
-    /// What it becomes.
+    /// The text that takes its place.
     pub wrong: String,
 }
 
@@ -75,7 +75,7 @@ fn rounding(datapath: &Datapath, line: RoundingLine, mode: Rounding) -> Change {
     (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", rounding_number(mode)))
 }
 
-/// Where a register is read, or shown to those who read it.
+/// Where a register is read, or shown at a port.
 fn register(
     datapath: &Datapath,
     rank: usize,

@@ -43,7 +43,7 @@ const WRAPPER: &str = include_str!("../blysk_mutated.sv");
 /// What became of a mutant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outcome {
-    /// The mutant's name.
+    /// The name of the mutant, for tables.
     pub name: String,
     /// What the testbench found: `vector 17`, `handshake`; none where it passed.
     pub killed_by: Option<String>,
@@ -52,7 +52,7 @@ pub struct Outcome {
 /// A directory in which mutants are run: the RTL, a bundle, and the wrapper.
 #[derive(Debug)]
 pub struct Bench {
-    /// The directory.
+    /// The directory in which mutants are built and run.
     pub directory: PathBuf,
 }
 

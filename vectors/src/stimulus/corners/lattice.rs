@@ -9,9 +9,9 @@ use std::ops::RangeInclusive;
 /// drops is then likely to be a tie exactly, not only nearly.
 #[derive(Debug, Clone)]
 pub struct Lattice {
-    /// The points.
+    /// The points, as bits of x.
     pub points: Vec<i64>,
-    /// 2^k.
+    /// The distance between neighbouring points: 2^k.
     pub step: i64,
 }
 

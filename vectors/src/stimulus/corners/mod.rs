@@ -70,7 +70,7 @@ impl Corners {
         }
     }
 
-    /// The corners taken.
+    /// The corners that were taken, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples

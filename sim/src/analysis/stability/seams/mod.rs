@@ -26,7 +26,7 @@ const PIECE: i64 = 1 << 18;
 /// What one exponent's output does as x rises by an ulp at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SeamRow {
-    /// The exponent.
+    /// The exponent of the row.
     pub n: f64,
     /// Pairs of neighbouring x.
     pub pairs: u64,
@@ -56,12 +56,12 @@ pub struct SeamRow {
     pub image_falls: u64,
 }
 
-/// One hand-over.
+/// A pair of neighbouring x at which another part of the pipeline takes over.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct HandOver {
-    /// The exponent.
+    /// The exponent of the row.
     pub n: f64,
-    /// What answers below.
+    /// The region that answers below `x`.
     pub from: &'static str,
     /// What answers from `x` on.
     pub to: &'static str,
@@ -80,7 +80,7 @@ pub struct HandOver {
 /// Every exponent asked for.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SeamReport {
-    /// The configuration's name.
+    /// The name of the configuration.
     pub configuration: String,
     /// Pairs of neighbouring x, all exponents together.
     pub pairs: u64,

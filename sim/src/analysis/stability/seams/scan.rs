@@ -16,7 +16,7 @@ pub(super) struct Peak {
     pub(super) x: i64,
 }
 
-/// A hand-over.
+/// A place at which the region changes as x rises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Seam {
     pub(super) from: Region,

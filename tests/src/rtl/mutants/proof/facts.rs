@@ -7,13 +7,13 @@ use vectors::rtl::probes;
 /// A register that only takes values of a range, whatever the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fact {
-    /// The rank.
+    /// The rank of the register.
     pub rank: usize,
     /// Its name in the RTL.
     pub path: String,
-    /// The least value.
+    /// The least value that the register takes.
     pub least: i64,
-    /// The greatest value.
+    /// The greatest value that the register takes.
     pub greatest: i64,
     /// True where the highest bit is a sign.
     pub signed: bool,

@@ -42,7 +42,7 @@ impl Frames {
         Self { graph, facts, regions, readers }
     }
 
-    /// The netlist's graph.
+    /// The graph of the netlist.
     #[must_use]
     pub const fn graph(&self) -> &Graph {
         &self.graph

@@ -13,9 +13,9 @@ pub type Module = Map<String, Value>;
 /// A bit of a signal: the number of its net, or a constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bit {
-    /// A net.
+    /// The net of this number.
     Net(u64),
-    /// 0 or 1.
+    /// A constant 0 or 1.
     Constant(bool),
 }
 
@@ -31,9 +31,9 @@ pub enum Holds {
 /// A register: one flip-flop cell of the netlist.
 #[derive(Debug, Clone)]
 pub struct Register {
-    /// The cell.
+    /// The name of the cell in the netlist.
     pub cell: String,
-    /// What it holds.
+    /// The signal of the pipeline that the register holds.
     pub holds: Holds,
     /// The nets it drives.
     pub output: Vec<Bit>,
@@ -53,9 +53,9 @@ pub enum Place {
 pub struct Graph {
     /// Its registers, in the order of their cells' names.
     pub registers: Vec<Register>,
-    /// Ranks of registers.
+    /// The number of ranks.
     pub ranks: usize,
-    /// The module.
+    /// The module as Yosys wrote it.
     module: Module,
     /// The cell that drives a net.
     drivers: BTreeMap<u64, String>,

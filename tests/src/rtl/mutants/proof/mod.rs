@@ -1,4 +1,4 @@
-//! Is a mutation of the netlist one that nobody can see?
+//! Decides by proof whether any input shows a mutation of the netlist.
 //!
 //! Where it sits decides what is asked ([`graph::Place`]).
 //!
@@ -46,12 +46,12 @@ pub enum Judgement {
     Equivalent(&'static str),
     /// An input that shows it.
     Visible {
-        /// The address.
+        /// The address of the input that shows it.
         address: u64,
         /// The bits of x.
         x: u64,
     },
-    /// Neither found.
+    /// Neither a proof nor an input that shows it was found.
     Open,
 }
 
@@ -73,7 +73,7 @@ pub struct Prover {
 }
 
 impl Prover {
-    /// A prover for the netlist in a file of this directory. A comparison gets so many seconds.
+    /// A prover for the netlist in a file of this directory. A comparison gets this number of seconds.
     ///
     /// # Errors
     /// When the netlist is not that of the pipeline, or something in it matters that must not.
@@ -138,7 +138,7 @@ impl Prover {
             std::fs::write(self.directory.join(format!("{name}.{kind}")), text)
                 .map_err(|error| Failure(error.to_string()))?;
         }
-        // What both have alike is merged while it is words: afterwards nobody can tell it.
+        // What both have alike is merged while it is words: afterwards it cannot be recognised.
         let script = format!(
             "read_json {name}.json; read_verilog -sv {name}.v; \
              hierarchy -top frame; flatten; opt_expr; opt_merge -share_all; opt_clean; \

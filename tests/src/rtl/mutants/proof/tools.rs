@@ -1,4 +1,4 @@
-//! Yosys and ABC.
+//! Runs Yosys, and ABC inside it.
 
 use std::path::Path;
 use std::process::{Command, Output};
