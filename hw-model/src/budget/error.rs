@@ -2,6 +2,7 @@
 
 use super::polynomial::{derivative, magnitude};
 use super::{Bound, RowPolynomial};
+use crate::quantise::power_of_two;
 use crate::rounding::Rounding;
 
 /// The registers whose fraction bits the budget chooses.
@@ -79,7 +80,7 @@ pub struct Surroundings {
 impl Surroundings {
     /// The greatest error of a rounding line that keeps `fraction` bits.
     pub(crate) fn line_error(&self, fraction: u32) -> f64 {
-        let ulp = (-f64::from(fraction)).exp2();
+        let ulp = power_of_two(-(fraction as i32));
         if self.rounding.is_nearest() { 0.5 * ulp } else { ulp }
     }
 
@@ -120,7 +121,7 @@ impl Sensitivity {
         let rounding = surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v
             + surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v
             + surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0));
-        let ulp = (-f64::from(surroundings.output)).exp2();
+        let ulp = power_of_two(-(surroundings.output as i32));
         Bound { coefficient: coefficient / ulp, datapath: (variable + rounding) / ulp, tail: 0.0 }
     }
 
@@ -145,7 +146,7 @@ impl Sensitivity {
             surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v,
             surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0)),
         ];
-        shares.map(|share| share * f64::from(surroundings.output).exp2())
+        shares.map(|share| share * power_of_two(surroundings.output as i32))
     }
 
     /// How far the polynomial with the ROM's integers may be from the real one, for variables up to `v`.
@@ -157,7 +158,8 @@ impl Sensitivity {
         // Steps make up for each other, so that their sum says little: the difference of the polynomials is one
         // of degree 3, whose greatest magnitude is known. Real coefficients may be a place of 53 off.
         let difference: [f64; 4] = std::array::from_fn(|power| {
-            let (value, scale) = (self.row.coefficients[power], f64::from(fractions[power]).exp2());
+            let (value, scale) =
+                (self.row.coefficients[power], power_of_two(fractions[power] as i32));
             let rounded = (value * scale).round_ties_even() + f64::from(self.row.steps[power]);
             rounded / scale - value
         });
@@ -170,7 +172,7 @@ impl Sensitivity {
     fn moved(&self, fractions: [u32; 4]) -> [f64; 4] {
         std::array::from_fn(|power| {
             let steps = f64::from(self.row.steps[power].unsigned_abs());
-            let step = steps * (-f64::from(fractions[power])).exp2();
+            let step = steps * power_of_two(-(fractions[power] as i32));
             coefficient_error(self.row.coefficients[power], fractions[power]) + step
         })
     }
@@ -197,8 +199,8 @@ impl Sensitivity {
 /// away from the real coefficient, one place of 53 (a of the power form at n = 10⁶ is 10¹² large:
 /// 10⁻⁴ of it are lost before the ROM's format is even chosen).
 pub(super) fn coefficient_error(value: f64, fraction: u32) -> f64 {
-    let scaled = value * f64::from(fraction).exp2();
+    let scaled = value * power_of_two(fraction as i32);
     let quantised =
-        if scaled == scaled.round() { 0.0 } else { 0.5 * (-f64::from(fraction)).exp2() };
+        if scaled == scaled.round() { 0.0 } else { 0.5 * power_of_two(-(fraction as i32)) };
     quantised + value.abs() * f64::EPSILON
 }

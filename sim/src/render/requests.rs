@@ -5,8 +5,7 @@ use std::ops::Range;
 use hw_model::datapath::front_end::Region;
 use hw_model::design::Design;
 use hw_model::format::{Overflow, QFormat};
-use hw_model::quantise::{quantise, real};
-use hw_model::rounding::Rounding;
+use hw_model::quantise::{real, x_bits};
 use thiserror::Error;
 
 use super::samples::Samples;
@@ -16,7 +15,7 @@ use crate::scene::Scene;
 #[must_use]
 pub fn bits(x: f64, input: QFormat) -> i64 {
     // Refused is only what is not finite, which no scene that was checked presents.
-    quantise(x, input, Rounding::NearestEven, Overflow::Saturate).unwrap_or(0)
+    x_bits(x, input, Overflow::Saturate).unwrap_or(0)
 }
 
 /// An exponent of the scene that the hardware has not.

@@ -2,9 +2,9 @@
 
 use hw_model::design::Design;
 use hw_model::fit::{Method, fit};
+use hw_model::format::Overflow;
 use hw_model::highlight::{phong, schlick};
-use hw_model::quantise::{quantise, real};
-use hw_model::{format::Overflow, rounding::Rounding};
+use hw_model::quantise::{real, x_bits};
 
 use crate::analysis::error_report::{ErrorReport, ErrorRow};
 use crate::plot::{
@@ -87,7 +87,7 @@ pub fn curves(design: &Design, exponent: f64) -> Chart {
 fn hardware(design: &Design, exponent: f64, x: f64) -> f64 {
     let config = design.config();
     // x is a cosine in [0, 1], which saturates at worst.
-    let bits = quantise(x, config.input, Rounding::NearestEven, Overflow::Saturate).unwrap_or(0);
+    let bits = x_bits(x, config.input, Overflow::Saturate).unwrap_or(0);
     let address = design.rom().address_of(exponent);
     real(design.datapath().evaluate(address, bits).intensity, config.output)
 }
