@@ -147,8 +147,14 @@ impl Exponents {
     }
 
     /// The place of exactly this exponent in the list, counted from 0.
+    #[inline]
     #[must_use]
     pub fn position(&self, exponent: f64) -> Option<usize> {
+        // Where the list counts up by one, which most do.
+        let counted = (exponent - self.first()) as u32 as usize;
+        if self.0.get(counted) == Some(&exponent) {
+            return Some(counted);
+        }
         self.0.binary_search_by(|n| n.total_cmp(&exponent)).ok()
     }
 }

@@ -300,6 +300,7 @@ impl Rom {
     }
 
     /// The address of an exponent; for one without a word, the first address past the end.
+    #[inline]
     #[must_use]
     pub fn address_of(&self, exponent: f64) -> u32 {
         self.exponents.position(exponent).unwrap_or(self.depth()) as u32
