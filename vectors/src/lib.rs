@@ -1,5 +1,19 @@
 //! Cases for the highlight pipeline and the files they travel in.
 //!
+//! ```
+//! use hw_model::design::Design;
+//! use vectors::{Bundle, Strategy};
+//!
+//! # let place = tempfile::tempdir()?;
+//! # let directory = place.path().join("vectors");
+//! let design = Design::preset("compact")?;
+//! Bundle::new(&design, Strategy::Even, 64, 1, "my program")?.write_to(&directory)?;
+//! assert_eq!(vectors::verify(&directory)?.vectors.len(), 64); // read back, and every answer found again
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A testbench reads `stimulus.mem`, `expected.mem` and `rom.mem` with `$readmemh`; [`check()`] judges a log of answers.
+//!
 //! Generators ([`stimulus`]) choose cases and know nothing of checkers; a [`Bundle`] adds the golden
 //! model's answers and writes the files; [`verify()`] reads them back, and [`check()`] judges by them
 //! what somebody else's hardware answered. Text formats of Verilog are known in this crate only.
@@ -14,6 +28,7 @@ pub mod answers;
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod decimal;
 pub mod fault_table;
 pub mod faults;
 pub mod kind;

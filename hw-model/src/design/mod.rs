@@ -1,10 +1,13 @@
 //! From a configuration to hardware: real rows, widths, ROM, data path.
 //!
+//! [`Design::preset`] and [`Design::highlight`] are the front door; this is the way behind it:
+//!
 //! ```text
 //! Config → real rows (fit) → fraction bits (budget) → ROM integers (quantise) → ranges → formats → Datapath
 //! ```
 
 mod doubt;
+mod highlight;
 mod polynomial;
 mod real_row;
 mod revision;
@@ -22,9 +25,11 @@ use crate::datapath::front_end::FrontEnd;
 use crate::domain;
 use crate::fit::FitError;
 use crate::format::QFormat;
+use crate::presets;
 use crate::quantise::QuantiseError;
 use crate::rom::{FieldName, Rom, Row};
 
+pub use highlight::HighlightError;
 pub use real_row::{Outer, RealRow};
 pub use revision::Revision;
 pub use rom_row::RomRow;
@@ -34,6 +39,12 @@ pub use shares::Share;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DesignError {
+    /// A preset that is none.
+    #[error("there is no preset {name:?}; there are {}", presets::ALL.map(|preset| preset.name).join(", "))]
+    NoPreset {
+        /// The name.
+        name: String,
+    },
     /// The configuration itself.
     #[error(transparent)]
     Config(#[from] ConfigError),
