@@ -22,6 +22,7 @@ pub struct Case {
 
 impl Case {
     /// The case of an address; its exponent is the one the ROM has there.
+    #[inline]
     #[must_use]
     pub fn at(rom: &Rom, address: u32, x: i64) -> Self {
         let exponent = rom.exponents().as_slice().get(address as usize).copied();
@@ -29,6 +30,7 @@ impl Case {
     }
 
     /// The case of an exponent; without a ROM word it goes to the first address past the end.
+    #[inline]
     #[must_use]
     pub fn of(rom: &Rom, exponent: f64, x: i64) -> Self {
         Self { exponent: Some(exponent), address: rom.address_of(exponent), x }

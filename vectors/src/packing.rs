@@ -154,6 +154,11 @@ impl WordLayout {
         })
     }
 
+    /// The bits of a port word, in the order of the fields, as [`pack`](Self::pack) packed them.
+    pub fn unpack_ports(&self, word: u128) -> impl Iterator<Item = i64> {
+        self.fields.iter().map(move |field| field.format.from_word((word >> field.lsb) as u64))
+    }
+
     /// The bits of a word, in the order of the fields; what lies above the width is ignored.
     #[must_use]
     pub fn unpack(&self, word: &UBig) -> Vec<i64> {

@@ -18,12 +18,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use hw_model::format::{Overflow, QFormat};
-use hw_model::quantise::{decimal, quantise};
+use hw_model::quantise::{self, x_bits};
 use hw_model::rom::Rom;
-use hw_model::rounding::Rounding;
 use thiserror::Error;
 
 use crate::case::Case;
+use crate::decimal;
 use crate::limits::MOST_CYCLES;
 use crate::records::{Record, RecordError, Records};
 use crate::text_file::{self, STIMULUS, TextError, TextReader};
@@ -221,7 +221,7 @@ impl Columns {
 /// # Errors
 /// What is wrong with the text, and what would be right.
 pub fn exponent(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
+    match decimal::real(text) {
         Ok(n) if n.is_finite() && n >= 1.0 => Ok(n),
         Ok(_) => Err(format!("{text} is not an exponent; exponents are finite numbers from 1 up")),
         Err(_) => Err(format!("{text:?} is not a number; write an exponent such as 64 or 2.5")),
@@ -233,11 +233,10 @@ pub fn exponent(text: &str) -> Result<f64, String> {
 /// # Errors
 /// What is wrong with the text, and what would be right.
 pub fn real(text: &str, input: QFormat) -> Result<i64, String> {
-    let value: f64 = text.parse().map_err(|_| {
+    let value = decimal::real(text).map_err(|_| {
         format!("{text:?} is not a number; write x as a decimal such as 0.75, or use `x_bits`")
     })?;
-    quantise(value, input, Rounding::NearestEven, Overflow::Refuse)
-        .map_err(|error| error.to_string())
+    x_bits(value, input, Overflow::Refuse).map_err(|error| error.to_string())
 }
 
 /// The field `x_bits`: a signed integer, or a word of the format as `0x…`, two's complement where it is signed.
@@ -263,7 +262,7 @@ pub fn bits(text: &str, input: QFormat) -> Result<i64, String> {
     let (low, high) = (input.min_bits(), input.max_bits());
     Err(format!(
         "{text} does not fit {input}, whose bits are {low} to {high} (x from {} to {})",
-        decimal(low, input),
-        decimal(high, input)
+        quantise::decimal(low, input),
+        quantise::decimal(high, input)
     ))
 }

@@ -89,14 +89,21 @@ fn answer_lines(
     out: &mut Out,
 ) -> anyhow::Result<Outcome> {
     let datapath = design.datapath();
-    let (mut csv, mut hex) = (Csv::new(datapath), Hex::new(datapath));
-    let dialect: &mut dyn Dialect = match args.format {
-        None | Some(Format::Csv) => &mut csv,
-        Some(Format::Hex) => &mut hex,
+    match args.format {
+        None | Some(Format::Csv) => answer_all(datapath, &mut Csv::new(datapath), path, out),
+        Some(Format::Hex) => answer_all(datapath, &mut Hex::new(datapath), path, out),
         Some(Format::Text) => {
-            return Err(anyhow!("--format text is for one question; say --format csv or hex"));
+            Err(anyhow!("--format text is for one question; say --format csv or hex"))
         }
-    };
+    }
+}
+
+fn answer_all(
+    datapath: &Datapath,
+    dialect: &mut impl Dialect,
+    path: &Path,
+    out: &mut Out,
+) -> anyhow::Result<Outcome> {
     let out = &mut UntilClosed(out);
     let answered = if path == Path::new("-") {
         // Who types questions at a terminal is not shown for how long the command has waited.
@@ -155,9 +162,9 @@ fn answer_one(args: &Args, design: &Design, n: f64, out: &mut Out) -> anyhow::Re
         None | Some(Format::Text) => lines = text(datapath, &answer).into_bytes(),
         Some(Format::Csv) => {
             lines.extend_from_slice(csv.header().as_bytes());
-            csv.write(&answer, &mut lines);
+            csv.write(&[answer], &mut lines);
         }
-        Some(Format::Hex) => hex.write(&answer, &mut lines),
+        Some(Format::Hex) => hex.write(&[answer], &mut lines),
     }
     out.write_all(&lines)?;
     if args.ranks {
@@ -173,7 +180,7 @@ fn text(datapath: &Datapath, answer: &Answer) -> String {
     let bits = answer.intensity;
     let word = output.to_word(bits);
     let reference = answer.reference(datapath).unwrap_or(0.0);
-    let ulp = answer.error_ulp(datapath).unwrap_or(0.0);
+    let ulp = answer.error_ulp(datapath, reference);
     let per_cent = (answer.value(datapath) - reference) * 100.0;
     format!(
         "intensity  {}  ({output}: {bits}, 0x{word:x})\n\

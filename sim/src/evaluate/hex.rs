@@ -1,8 +1,5 @@
 //! Questions and answers as hex words: those of `stimulus.mem` and `expected.mem`.
 
-use std::io::Write;
-
-use dashu_int::UBig;
 use hw_model::datapath::Datapath;
 use vectors::packing::WordLayout;
 
@@ -35,29 +32,42 @@ impl Dialect for Hex<'_> {
         "write a word {address, x} in hex on a line for each question, as in stimulus.mem"
     }
 
-    fn read(&mut self, line: &str) -> Result<Option<Question>, String> {
+    fn read(&mut self, line: &str, questions: &mut Vec<Question>) -> Result<(), String> {
         let word = line.split_once("//").map_or(line, |(word, _)| word).trim();
         if word.is_empty() {
-            return Ok(None);
+            return Ok(());
         }
-        let digits = self.stimulus.digits();
-        let value = Some(word).filter(|word| word.bytes().all(|byte| byte.is_ascii_hexdigit()));
-        let value = value.and_then(|word| UBig::from_str_radix(word, 16).ok());
-        match value.filter(|value| (value >> self.stimulus.width as usize).is_zero()) {
-            Some(value) => match self.stimulus.unpack(&value)[..] {
-                [address, x] => Ok(Some(Question::at(self.datapath.rom(), address as u32, x))),
-                _ => Err("the stimulus word has other fields than address and x".to_owned()),
-            },
-            None => Err(format!(
-                "{word:?} is not a word of {} bits {{address, x}}; write {digits} hex digits, as stimulus.mem",
-                self.stimulus.width
-            )),
-        }
+        let width = self.stimulus.width;
+        let Some(value) = number(word).filter(|value| value >> width == 0) else {
+            let digits = self.stimulus.digits();
+            return Err(format!(
+                "{word:?} is not a word of {width} bits {{address, x}}; write {digits} hex digits, as stimulus.mem"
+            ));
+        };
+        let mut ports = self.stimulus.unpack_ports(value);
+        let (Some(address), Some(x)) = (ports.next(), ports.next()) else {
+            return Err("the stimulus word has other fields than address and x".to_owned());
+        };
+        questions.push(Question::at(self.datapath.rom(), address as u32, x));
+        Ok(())
     }
 
-    fn write(&mut self, answer: &Answer, to: &mut Vec<u8>) {
-        let word = self.expected.pack(&[answer.status.bits().into(), answer.intensity]);
-        // Writing to memory cannot fail.
-        let _ = writeln!(to, "{word:0digits$x}", digits = self.expected.digits());
+    fn write(&mut self, answers: &[Answer], to: &mut Vec<u8>) {
+        let digits = self.expected.digits();
+        for answer in answers {
+            let word = self.expected.pack(&[answer.status.bits().into(), answer.intensity]);
+            to.extend((0..digits).rev().map(|place| DIGITS[(word >> (4 * place) & 0xf) as usize]));
+            to.push(b'\n');
+        }
     }
+}
+
+const DIGITS: &[u8; 16] = b"0123456789abcdef";
+
+/// The number of hex digits and nothing else, where it has no more than 128 bits.
+fn number(digits: &str) -> Option<u128> {
+    digits.bytes().try_fold(0_u128, |number, byte| {
+        let digit = char::from(byte).to_digit(16)?;
+        (number >> 124 == 0).then_some((number << 4) | u128::from(digit))
+    })
 }

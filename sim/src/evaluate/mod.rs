@@ -10,6 +10,7 @@
 mod answer;
 mod csv;
 mod hex;
+mod lines;
 mod stream;
 
 pub use answer::{Answer, Question};

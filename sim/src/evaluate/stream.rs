@@ -4,6 +4,7 @@ use std::io::{self, BufRead, Write};
 use std::path::Path;
 
 use hw_model::datapath::{Datapath, Logic, Requests};
+use memchr::memchr_iter;
 use thiserror::Error;
 use vectors::text_file::{QUESTIONS, TextError};
 
@@ -22,14 +23,14 @@ pub trait Dialect {
     /// What questions look like, for who wrote none.
     fn wanted(&self) -> &'static str;
 
-    /// The question of a line; none where the line asks nothing (it is empty, a comment or names the columns).
+    /// Appends the question of a line; nothing where the line asks none (it is empty, a comment or names the columns).
     ///
     /// # Errors
     /// What is wrong with the line, and what would be right.
-    fn read(&mut self, line: &str) -> Result<Option<Question>, String>;
+    fn read(&mut self, line: &str, questions: &mut Vec<Question>) -> Result<(), String>;
 
-    /// Appends the line of an answer.
-    fn write(&mut self, answer: &Answer, to: &mut Vec<u8>);
+    /// Appends a line for each answer.
+    fn write(&mut self, answers: &[Answer], to: &mut Vec<u8>);
 }
 
 /// Why the stream ended early. The lines before were answered.
@@ -70,15 +71,17 @@ pub enum StreamError {
 /// what was read last is not answered.
 pub fn stream(
     datapath: &Datapath,
-    dialect: &mut dyn Dialect,
+    dialect: &mut impl Dialect,
     (questions, mut from): (&Path, impl BufRead),
     to: &mut dyn Write,
 ) -> Result<u64, StreamError> {
     let mut batch = Batch::new(datapath, dialect, questions);
     // The beginning of a line whose end has not been read yet.
-    let mut begun: Vec<u8> = Vec::new();
+    let mut begun = String::new();
     loop {
-        let read = match from.fill_buf() {
+        // A reader of text hands on whole characters.
+        let text = |read| str::from_utf8(read).map_err(|_| io::ErrorKind::InvalidData.into());
+        let read = match from.fill_buf().and_then(text) {
             Ok(read) => read,
             Err(error) => {
                 batch.finish(to)?;
@@ -99,26 +102,28 @@ pub fn stream(
 }
 
 /// Questions that wait for an answer.
-struct Batch<'a> {
+struct Batch<'a, D> {
     datapath: &'a Datapath,
-    dialect: &'a mut dyn Dialect,
+    dialect: &'a mut D,
     questions_of: &'a Path,
     logic: Logic,
     requests: Box<Requests<SIDE_BY_SIDE, SIDE_BY_SIDE>>,
     questions: Vec<Question>,
+    answers: Vec<Answer>,
     written: Vec<u8>,
     line: u64,
     answered: u64,
 }
 
-impl<'a> Batch<'a> {
-    fn new(datapath: &'a Datapath, dialect: &'a mut dyn Dialect, questions: &'a Path) -> Self {
+impl<'a, D: Dialect> Batch<'a, D> {
+    fn new(datapath: &'a Datapath, dialect: &'a mut D, questions: &'a Path) -> Self {
         Self {
             datapath,
             questions_of: questions,
             logic: datapath.logic(),
             requests: datapath.requests(),
             questions: Vec::with_capacity(SIDE_BY_SIDE),
+            answers: Vec::with_capacity(SIDE_BY_SIDE),
             written: dialect.header().as_bytes().to_vec(),
             dialect,
             line: 0,
@@ -129,45 +134,36 @@ impl<'a> Batch<'a> {
     /// Takes in the complete lines of what was read; nothing read is the end of the last line.
     fn take(
         &mut self,
-        read: &[u8],
-        begun: &mut Vec<u8>,
+        read: &str,
+        begun: &mut String,
         to: &mut dyn Write,
     ) -> Result<(), StreamError> {
         if read.is_empty() {
             let line = std::mem::take(begun);
             return if line.is_empty() { Ok(()) } else { self.line(&line, to) };
         }
-        let mut rest = read;
-        while let Some(end) = rest.iter().position(|&byte| byte == b'\n') {
-            let (line, after) = (&rest[..end], &rest[end + 1..]);
+        let mut start = 0;
+        for end in memchr_iter(b'\n', read.as_bytes()) {
+            let line = &read[start..end];
+            start = end + 1;
             if begun.is_empty() {
                 self.line(line, to)?;
             } else {
-                begun.extend_from_slice(line);
-                let line = std::mem::take(begun);
-                self.line(&line, to)?;
+                begun.push_str(line);
+                self.line(&std::mem::take(begun), to)?;
             }
-            rest = after;
         }
-        begun.extend_from_slice(rest);
+        begun.push_str(&read[start..]);
         Ok(())
     }
 
-    fn line(&mut self, bytes: &[u8], to: &mut dyn Write) -> Result<(), StreamError> {
+    fn line(&mut self, line: &str, to: &mut dyn Write) -> Result<(), StreamError> {
         self.line += 1;
-        // The reader lets nothing else through.
-        let line = std::str::from_utf8(bytes).unwrap_or_default();
-        match self.dialect.read(line.trim()) {
-            Ok(None) => Ok(()),
-            Ok(Some(question)) => {
-                self.questions.push(question);
-                if self.questions.len() == SIDE_BY_SIDE { self.answer(to) } else { Ok(()) }
-            }
-            Err(problem) => {
-                let questions = self.questions_of.display().to_string();
-                Err(StreamError::Line { questions, line: self.line, problem })
-            }
-        }
+        self.dialect.read(line, &mut self.questions).map_err(|problem| {
+            let questions = self.questions_of.display().to_string();
+            StreamError::Line { questions, line: self.line, problem }
+        })?;
+        if self.questions.len() == SIDE_BY_SIDE { self.answer(to) } else { Ok(()) }
     }
 
     /// Evaluates what waits, together.
@@ -178,12 +174,14 @@ impl<'a> Batch<'a> {
             (*address, *x) = (question.address, question.x);
         }
         self.logic.evaluate(self.datapath, &mut self.requests, 0);
-        for (index, &question) in self.questions.iter().enumerate() {
-            let intensity = self.requests.intensities()[index];
-            let (status, region) = (self.requests.status(index), self.requests.region(index));
-            let answer = Answer { question, intensity, status, region };
-            self.dialect.write(&answer, &mut self.written);
-        }
+        self.answers.clear();
+        self.answers.extend(self.questions.iter().enumerate().map(|(index, &question)| Answer {
+            question,
+            intensity: self.requests.intensities()[index],
+            status: self.requests.status(index),
+            region: self.requests.region(index),
+        }));
+        self.dialect.write(&self.answers, &mut self.written);
         self.answered += self.questions.len() as u64;
         self.questions.clear();
         if self.written.len() >= PIECE {

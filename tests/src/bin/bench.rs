@@ -25,6 +25,7 @@ const CYCLES: u64 = 4_000_000;
 const CHECKED: u64 = 500_000;
 const WAVE_CYCLES: u64 = 200_000;
 const VECTORS: u64 = 100_000;
+const QUESTIONS: u64 = 1_000_000;
 
 /// Lines of a table in Markdown.
 struct Table(String);
@@ -81,6 +82,7 @@ fn run() -> Result<(), Failure> {
         cycles(&design, &mut table)?;
         sweeps(&design, &mut table)?;
         statistics(&design, &mut table)?;
+        answers(&design, &mut table)?;
         if name == "compact" {
             written(&design, &mut table)?;
         }
@@ -228,6 +230,27 @@ fn written(design: &Design, table: &mut Table) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Answers a second to a file of questions, in one thread.
+fn answers(design: &Design, table: &mut Table) -> Result<(), Failure> {
+    let file = tempfile::NamedTempFile::new().map_err(|error| Failure(error.to_string()))?;
+    files::questions(QUESTIONS, file.path())?;
+    let mut rates = [(); 2].map(|()| Rates::default());
+    for _ in 0..TURNS {
+        let ours = files::answered(design, file.path())?;
+        let naive = files::naively_answered(design, file.path())?;
+        if ours.count != QUESTIONS || naive.count != QUESTIONS {
+            return failed(format!("{} and {} answers to {QUESTIONS}", ours.count, naive.count));
+        }
+        rates[0].push(&naive);
+        rates[1].push(&ours);
+    }
+    let [naive, ours] = &rates;
+    let ratio = Some((ours.median() / naive.median(), "`parse`, `writeln!`"));
+    table.line("questions, a line at a time", naive, "answers", None);
+    table.line("questions, `blysk evaluate`", ours, "answers", ratio);
+    Ok(())
+}
+
 /// The processor and its cores.
 fn machine() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -258,7 +281,9 @@ fn write_docs(path: &Path, machine: &str, tables: &str) -> Result<(), Failure> {
          Many cycles at a time take a stream without stalls or resets.\n\
          - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where x is below the \
          cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
-         - The error statistics are those of `blysk report --exhaustive`.\n{tables}"
+         - The error statistics are those of `blysk report --exhaustive`.\n\
+         - Questions are {QUESTIONS} random lines `n,x` of a file; the answers go nowhere. A line at a time: `split`, \
+         `parse`, the answer, x^n and a `writeln!`. In time of the processor, one thread.\n{tables}"
     );
     std::fs::write(path, text)
         .map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
