@@ -7,6 +7,8 @@
 
 use std::collections::VecDeque;
 
+use hw_model::datapath::Status;
+
 use crate::pipeline::{Inputs, Outputs, Pipeline, Ranks};
 
 /// One cycle of stimulus.
@@ -148,5 +150,42 @@ fn inputs(row: Option<StimulusCycle>, request: Option<(u32, i64)>) -> Inputs {
         address,
         x,
         out_ready: row.is_none_or(|row| row.ready),
+    }
+}
+
+/// A result that was taken, with the request that it answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Taken {
+    /// The cycle in which it was taken.
+    pub cycle: u64,
+    /// The request's address and x.
+    pub request: (u32, i64),
+    /// The intensity, bits in the output format.
+    pub intensity: i64,
+    /// The flags.
+    pub status: Status,
+}
+
+/// Finds the request of every result: requests do not overtake each other, and a reset loses those under way.
+#[derive(Debug, Clone, Default)]
+pub struct Results {
+    under_way: VecDeque<(u32, i64)>,
+}
+
+impl Results {
+    /// The result that was taken in this cycle. Every cycle of a run is to be shown, in order.
+    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> Option<Taken> {
+        let Cycle { index, inputs, outputs, .. } = cycle;
+        if inputs.reset {
+            self.under_way.clear();
+            return None;
+        }
+        let taken = outputs.out_valid && inputs.out_ready;
+        let request = if taken { self.under_way.pop_front() } else { None };
+        if inputs.in_valid && outputs.in_ready {
+            self.under_way.push_back((inputs.address, inputs.x));
+        }
+        let (intensity, status) = (outputs.intensity, outputs.status);
+        request.map(|request| Taken { cycle: *index, request, intensity, status })
     }
 }

@@ -3,6 +3,7 @@
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
 //! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
 
+mod answers;
 mod bar;
 mod certify;
 mod check;

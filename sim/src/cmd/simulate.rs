@@ -1,14 +1,17 @@
 //! `blysk simulate`: a stimulus through the clocked pipeline.
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use clap::Args as ClapArgs;
 use hw_model::datapath::Datapath;
+use vectors::stimulus_file::parse_stimulus;
 use vectors::{Cycle as StimulusLine, read_stimulus};
 
-use super::bar::Bar;
+use super::answers::Answers;
+use super::bar::{self, Bar};
 use super::configuration::Configuration;
+use super::output::is_standard_output;
 use super::recordings::{Recordings, Target};
 use super::table::{Cell, Format, Rows};
 use super::{Out, Outcome};
@@ -22,7 +25,8 @@ use crate::waves::{WaveFormat, WaveWriter};
 ///
 /// The stimulus is a CSV file with a line for each cycle: columns n, x (or x_bits), and optionally
 /// valid, ready, reset (default 1, 1, 0). A request that is not taken stays presented, and those after
-/// it wait; after the last line the pipeline runs with ready high until it is empty.
+/// it wait; after the last line the pipeline runs with ready high until it is empty. Printed are the counts, and in a
+/// table for people the first answers; with --out - every answer, as CSV.
 #[derive(ClapArgs)]
 #[command(
     after_help = "Example: blysk simulate --preset paper --stimulus in.csv --trace trace.csv --waves out.vcd"
@@ -30,7 +34,7 @@ use crate::waves::{WaveFormat, WaveWriter};
 pub(super) struct Args {
     #[command(flatten)]
     configuration: Configuration,
-    /// The stimulus.
+    /// The stimulus; - is standard input.
     #[arg(long, value_name = "FILE")]
     stimulus: PathBuf,
     /// Write every port and register of every cycle to this CSV file; - is standard output, which then has nothing
@@ -41,7 +45,8 @@ pub(super) struct Args {
     /// a save file for GTKWave, which ends in .gtkw.
     #[arg(long, value_name = "FILE")]
     waves: Option<PathBuf>,
-    /// Write trace.csv, waves.vcd and waves.gtkw to this directory.
+    /// Write trace.csv, waves.vcd and waves.gtkw to this directory; with -, write every answer as CSV to standard output,
+    /// which then has nothing else.
     #[arg(long, value_name = "DIR", conflicts_with_all = ["trace", "waves"])]
     out: Option<PathBuf>,
     /// How to print the counts.
@@ -52,27 +57,44 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let datapath = design.datapath();
-    let inputs = [vec![args.stimulus.clone()], args.configuration.files()].concat();
-    let mut recordings = match &args.out {
+    let from_standard_input = args.stimulus == Path::new("-");
+    let stimulus_file = (!from_standard_input).then(|| args.stimulus.clone());
+    let inputs = [stimulus_file.into_iter().collect(), args.configuration.files()].concat();
+    let all_answers = args.out.as_deref().is_some_and(is_standard_output);
+    let mut recordings = match args.out.as_ref().filter(|_| !all_answers) {
         None => Recordings::of_files(args.trace.as_deref(), args.waves.as_deref(), &inputs)?,
         Some(directory) => Recordings::in_directory(directory, &inputs)?,
     };
-    let stimulus = read_stimulus(&args.stimulus, design.rom(), design.config().input)?;
+    let (rom, input) = (design.rom(), design.config().input);
+    let stimulus = if from_standard_input {
+        // Who types a stimulus at a terminal is not shown for how long the command has waited.
+        bar::end();
+        parse_stimulus(io::stdin(), Path::new("standard input"), rom, input)?
+    } else {
+        read_stimulus(&args.stimulus, rom, input)?
+    };
     let name = &design.config().name;
     recordings.save(name, datapath)?;
     let (trace, waves) = recordings.targets();
     let mut recorders = Recorders::new(trace, waves, name, datapath)?;
     let mut pipeline = Pipeline::new(datapath);
     let bar = Bar::counting(Some(stimulus.len() as u64), "cycles");
+    let mut answers = Answers::new(datapath, all_answers.then_some(&mut *out))?;
     let counts =
         run_stimulus(&mut pipeline, stimulus.iter().map(|line| Ok(cycle(line))), |cycle| {
             bar.advance(1);
+            answers.cycle(cycle)?;
             recorders.cycle(cycle)
         })?;
+    let first = answers.finish()?;
     bar.finish();
     settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
-    if !recordings.commit()? {
+    let alone = recordings.commit()?;
+    if !alone && !all_answers {
         print(&counts, datapath.rank_count(), args.format, out)?;
+        if args.format == Format::Table {
+            first.print(counts.results, out)?;
+        }
     }
     Ok(Outcome::Good)
 }
