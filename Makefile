@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
+.PHONY: all digests docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
 	alterations clean help
 
 CARGO ?= cargo
@@ -14,11 +14,15 @@ PRESETS ?=
 # tests ask of the libraries, and so compile them all again.
 TARGET = $(or $(CARGO_TARGET_DIR),target)
 CHECKED = --profile release-checked
+TESTED = $(TARGET)/release-checked/blysk-under-test
 BLYSK = $(CARGO) run --release --locked --quiet --bin blysk --
 VENV = target/venv
 # Properties are tried on the same inputs every time, so that the same tree gives the same answer. Others come with
 # `make test PROPTEST_RNG_SEED=2 PROPTEST_CASES=40000`.
 export PROPTEST_RNG_SEED ?= 1
+# What of scripts/freeze takes seconds; all of it takes minutes, and is for a change that moves code.
+FREEZE = scripts/freeze --blysk $(TESTED) --out $(RESULTS)/frozen \
+	--only example_small/ --only example_parabolas/ --only example_quartics/ --only alone/
 FORMAL = scripts/formal.py --blysk "$(BLYSK)"
 
 # Exit status 1 of `blysk report` says that a bound does not hold for some preset. Here that is a
@@ -78,8 +82,16 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	$(CARGO) clippy $(CHECKED) --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
 	$(CARGO) test $(CHECKED) --workspace --locked
-	@scripts/synth.py --check --blysk $(TARGET)/release-checked/blysk
+	@scripts/synth.py --check --blysk $(TESTED)
+	@rm -rf $(RESULTS)/frozen
+	@$(FREEZE) --against tests/frozen/DIGESTS
 	$(TARGET)/release-checked/cosimulate
+
+digests: ## tests/frozen/DIGESTS written again, after a change of output that is meant
+	$(CARGO) build $(CHECKED) --locked --quiet --bin blysk-under-test
+	@rm -rf $(RESULTS)/frozen
+	@$(FREEZE)
+	@cp $(RESULTS)/frozen/DIGESTS tests/frozen/DIGESTS
 
 rtl: setup ## every preset's RTL in Icarus and both Verilators, beside the model
 	$(CARGO) run $(CHECKED) --locked --quiet --bin cosimulate
@@ -91,9 +103,9 @@ peers: ## certified bounds and refined integers beside Sollya's, where that is i
 
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
-	$(CARGO) bench --package sim --bench throughput --locked
+	$(CARGO) bench --package analysis --bench throughput --locked
 
-pareto: ## what precision costs, everybody at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
+pareto: ## what precision costs, every contender at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
 	@mkdir -p target
 	@$(BLYSK) pareto --synth docs/synthesis.csv --out $(RESULTS)/pareto --format markdown > target/pareto.md
 	@mkdir -p docs/pareto
@@ -120,7 +132,7 @@ mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes l
 		judgements_are_those_of_every_input
 	$(CARGO) run --locked --quiet --release --bin mutants -- $(PRESETS)
 
-mutants-rust: ## the Rust code altered on purpose, under its tests: which alterations nobody sees; takes hours
+mutants-rust: ## the Rust code altered on purpose: which alterations its tests do not see; takes hours
 	@scripts/mutants-rust
 
 fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in results/fuzz

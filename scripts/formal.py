@@ -22,6 +22,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / "target/venv/bin"
+EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in ["parabolas", "quartics"]]
 PROPERTIES = ROOT / "hw-model/rtl/formal"
 RTL = [
     "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
@@ -54,7 +55,7 @@ class Property:
     bugs: list[Bug] = field(default_factory=list)
     replaces: list[str] = field(default_factory=list)  # RTL that `proof` has a module in place of
     carries_word: bool = False  # the request brings its ROM word: rom.sv in place of blysk_rom
-    bits: int = 0  # operands of the stages narrowed to so many
+    bits: int = 0  # operands of the stages narrowed to this width
     structural: bool = False  # no solver
 
 
@@ -62,7 +63,8 @@ ROUNDING_BUG = Bug("rounding left out", "blysk_round_shift.sv", "assign added = 
 
 
 ROUNDINGS = {"floor": 0, "nearest even": 2, "toward zero": 3}  # the presets have 1, nearest up
-WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_at_3)", ".variable_i(v_at_2)")
+WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_here)", ".variable_i(j == DEGREE ? v : v_here)",
+              needs="SEVERAL_STAGES")
 
 
 def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
@@ -81,8 +83,15 @@ def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
     return Property(
         name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
         files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
-        needs=needs, parameters=parameters, bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
+        needs=needs, parameters=parameters,
+        bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
     )
+
+
+def stage_of(degree, number, rounding=""):
+    """The proof of a stage of a polynomial of this degree."""
+    multiplicand = f"C{degree}" if number == 1 else f"T{number - 1}"
+    return stage(number, multiplicand, "V", f"C{degree - number}", f"DEGREE_{degree}", "CENTRED", rounding)
 
 
 ALL = [
@@ -112,17 +121,16 @@ ALL = [
                 needs="HAS_POLYNOMIAL"),
             Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
                 "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
-            Bug("hand-over not included", "blysk_front_end.sv", "'(x) < ", "'(x) <= ",
-                needs="TWO_SEGMENTS"),
+            Bug("hand-over not included", "blysk_front_end.sv", "COMPARE'(x) < ", "COMPARE'(x) <= ",
+                needs="SEVERAL_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
-            Bug("cut not of the row", "front_end.sv", ".cut_o(cut), ", ".cut_o(), ", needs="SHIFT_STORED"),
+            Bug("cut not of the row", "front_end.sv",
+                "  assign cut = of_row[blysk_pkg::CUT_PLACE+:blysk_pkg::CUT_WIDTH];\n", "", needs="SHIFT_STORED"),
         ],
     ),
-    stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED"),
-    stage(2, "T1", "V", "C1", "HAS_POLYNOMIAL", "CENTRED"),
-    stage(3, "T2", "V", "C0", "HAS_POLYNOMIAL", "CENTRED"),
+    *(stage_of(degree, number) for degree in range(1, 5) for number in range(1, degree + 1)),
     stage(0, "TAIL_B", "X", "TAIL_A", "HAS_TAIL", 1),
-    *(stage(1, "C3", "V", "C2", "HAS_POLYNOMIAL", "CENTRED", rounding) for rounding in ROUNDINGS),
+    *(stage_of(degree, 1, rounding) for degree in range(1, 5) for rounding in ROUNDINGS),
     Property(
         "pipeline", "blysk", RTL, ["rom.sv", "fields.sv", "trail.sv", "stand_in.sv", "pipeline.svh"],
         inside="blysk", needs="HAS_POLYNOMIAL", replaces=["blysk_stage"], carries_word=True, bugs=[WRONG_V],
@@ -135,7 +143,10 @@ ALL = [
     Property(
         "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
         parameters={"COUNT": "QUOTIENT_BITS_PER_STAGE"},
-        bugs=[Bug("equal not subtracted", "blysk_tail_digits.sv", "goes        = doubled >= ", "goes        = doubled > ")],
+        bugs=[
+            Bug("equal not subtracted", "blysk_tail_digits.sv",
+                "goes        = doubled >= ", "goes        = doubled > "),
+        ],
     ),
     Property(
         "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
@@ -157,7 +168,56 @@ ALL = [
 
 def constants(package):
     found = {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", package)}
-    return found | {"TWO_SEGMENTS": found["SEGMENTS"] - 1}
+    degrees = {f"DEGREE_{degree}": int(found["HAS_POLYNOMIAL"] and found["DEGREE"] == degree) for degree in range(1, 5)}
+    several = {"SEVERAL_SEGMENTS": found["SEGMENTS"] - 1, "SEVERAL_STAGES": found["DEGREE"] - 1}
+    return {"SHIFT_STORED": 0} | found | several | degrees
+
+
+def coefficient(segment, power):
+    """The name of a coefficient in the package."""
+    return f"C{power}" + ("" if segment == 0 else "_OUTER" if segment == 1 else f"_OUTER{segment}")
+
+
+def with_vectors(text, instead):
+    """The package with vectors and places that go with other single constants, which are added to `instead`."""
+    known = constants(text)
+    fields = re.findall(r"int (\w+)_PLACE = ", text)[: known["FIELDS"]]
+    place = 0
+    for name in fields:
+        instead[f"{name}_PLACE"] = place
+        place += instead.get(f"{name}_WIDTH", known[f"{name}_WIDTH"])
+    instead["FIELDS_WIDTH"] = place
+    known |= instead
+    degree, segments = known["DEGREE"], known["SEGMENTS"]
+    powers, stages = range(degree + 1), range(1, degree + 1)
+    vectors = {
+        "FIELD_WIDTH": [known[f"{name}_WIDTH"] for name in fields],
+        "FIELD_PLACE": [known[f"{name}_PLACE"] for name in fields],
+        "C_WIDTH": [known[f"C{i}_WIDTH"] for i in powers],
+        "C_PLACE": [known.get(f"{coefficient(k, i)}_PLACE", 0) for k in range(segments) for i in powers],
+        "T_WIDTH": [known[f"C{degree}_WIDTH"], *(known[f"T{j}_WIDTH"] for j in stages)],
+    }
+    for what in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
+        vectors[f"T_{what}"] = [0, *(known[f"T{j}_{what}"] for j in stages)]
+    shifts = ["SHIFT", "SHIFT_OUTER", *(f"SHIFT_OUTER{k}" for k in range(2, 8))][:segments]
+    hand_overs = ["ONE", "HAND_OVER", *(f"HAND_OVER{k}" for k in range(2, 8))][:segments]
+    vectors["SHIFT_PLACES"] = [known.get(f"{name}_PLACE", 0) for name in shifts]
+    vectors["HAND_OVER_PLACES"] = [known.get(f"{name}_PLACE", 0) for name in hand_overs]
+    for name, values in vectors.items():
+        words = ", ".join(f"32'd{value}" for value in reversed(values))
+        text, count = re.subn(rf"( {name}) =\s*[^;]*;", rf"\1 = {{{words}}};", text)
+        if count != 1:
+            sys.exit(f"formal: blysk_pkg.sv: {name} stands there {count} times, not once")
+    words = []
+    for name in reversed(fields):
+        value = re.search(rf" {name}_CONSTANT = \d+'h([0-9a-f]+);", text)
+        width = known[f"{name}_WIDTH"]
+        words.append(f"{width}'h{int(value.group(1), 16) & (1 << width) - 1:x}")
+    return re.sub(
+        r"logic \[\d+:0\] FIELD_CONSTANT =\s*[^;]*;",
+        f"logic [{place - 1}:0] FIELD_CONSTANT = {{{', '.join(words)}}};",
+        text,
+    )
 
 
 def replace_once(path, old, new):
@@ -197,7 +257,8 @@ class Job:
             shutil.copy(PROPERTIES / name, self.place)
         if self.prop.inside:
             included = next(name for name in self.prop.proof if name.endswith(".svh"))
-            replace_once(self.place / f"{self.prop.inside}.sv", "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
+            source = self.place / f"{self.prop.inside}.sv"
+            replace_once(source, "\nendmodule\n", f'\n`include "{included}"\nendmodule\n')
         package = self.place / "blysk_pkg.sv"
         package.write_text(self.package(package.read_text()))
         if self.bug and self.bug.file:
@@ -209,6 +270,7 @@ class Job:
         instead = {"ADDRESS_WIDTH": self.word} if self.prop.carries_word else {}
         if self.prop.bits:
             instead |= self.narrow(constants(text), self.prop.bits)
+            text = with_vectors(text, instead)
         for name, value in instead.items():
             text = re.sub(rf"(int {name}) = -?\d+;", rf"\1 = {value};", text)
         return text
@@ -216,10 +278,13 @@ class Job:
     @staticmethod
     def narrow(widths, bits):
         """Constants with operands of at most `bits`, and with places that go with them."""
-        operands = ["C3", "C2", "C1", "V", "T1", "T2", "T3", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS",
-                    "C3_OUTER", "C2_OUTER", "C1_OUTER"]
+        degree = widths["DEGREE"]
+        coefficients = [coefficient(k, i) for k in range(widths["SEGMENTS"]) for i in range(1, degree + 1)]
+        stages = [f"T{stage}" for stage in range(1, degree + 1)]
+        operands = [*coefficients, *stages, "V", "TAIL_A", "TAIL_B", "X", "DIVISOR", "DIGITS"]
         instead = {f"{name}_WIDTH": min(widths[f"{name}_WIDTH"], bits) for name in operands}
-        for t in ["T1", "T2", "T3", "DIVISOR"]:
+        instead["POLYNOMIAL_WIDTH"] = instead[f"T{degree}_WIDTH"]
+        for t in [*stages, "DIVISOR"]:
             instead |= {f"{t}_PRODUCT_UP": 0, f"{t}_ADDEND_UP": bits - 2, f"{t}_RESULT_UP": 0}
             instead |= {f"{t}_DROP": bits - 2, f"{t}_SUM_WIDTH": 2 * bits + 4}
         if widths["HAS_TAIL"]:
@@ -304,6 +369,8 @@ def main():
     parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
     parser.add_argument("--out", type=Path, help="where formal.csv goes")
     parser.add_argument("--preset", action="append", help="one that `blysk presets` lists; may be repeated")
+    parser.add_argument("--config", action="append", type=Path,
+                        help="a configuration beside the presets; may be repeated")
     parser.add_argument("--property", action="append", choices=[prop.name for prop in ALL])
     parser.add_argument("--limit", type=int, default=300, help="seconds for each proof")
     args = parser.parse_args()
@@ -313,9 +380,13 @@ def main():
     prepare_tools()
     rows, good = [], True
     print(f"{'preset':10}{'property':22}{'planted bug':26}{'result':30}{'seconds':>8}")
-    for preset in args.preset or presets:
+    # Where nothing is named: every preset, and the examples of other degrees and numbers of segments.
+    named = args.preset or args.config
+    configurations = [(path.stem, ["--config", str(path)]) for path in (args.config or ([] if named else EXAMPLES))]
+    chosen = args.preset or ([] if args.config else presets)
+    for preset, option in [(preset, ["--preset", preset]) for preset in chosen] + configurations:
         rtl = ROOT / "target/formal" / preset / "rtl"
-        command = [*shlex.split(args.blysk), "rtl", "--preset", preset, "--count", "1", "--out", str(rtl)]
+        command = [*shlex.split(args.blysk), "rtl", *option, "--count", "1", "--out", str(rtl)]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         package = constants((rtl / "blysk_pkg.sv").read_text())
         for prop in ALL:

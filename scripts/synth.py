@@ -275,7 +275,8 @@ def main():
         return same_since(args.blysk, args.same_since)
     os.environ["PATH"] = f"{VENV}:{os.environ['PATH']}"
     rows, wrong = [], []
-    chosen = {json.loads(Path(file).read_text())["name"]: ["--config", str(Path(file).resolve())] for file in args.config}
+    files = [Path(file).resolve() for file in args.config]
+    chosen = {json.loads(file.read_text())["name"]: ["--config", str(file)] for file in files}
     for name, option in (chosen or configurations(args.blysk)).items():
         rtl, sources = emit(args.blysk, name, option)
         for device in DEVICES:

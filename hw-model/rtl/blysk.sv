@@ -1,10 +1,10 @@
 // The highlight pipeline: cos(angle)^n for x = cos(angle) and the address of an exponent n.
 // Twin of src/datapath/ranks.rs; the widths and constants of one configuration are in blysk_pkg.
 //
-//   (address, x) -> ROM word -+-> front end -> stage 1 -> stage 2 -> stage 3 -+-> clamp -> intensity
-//                             +-> front end -> divisor, quotient digits ------+
+//   (address, x) -> ROM word -+-> front end -> stage 1 -> ... -> stage DEGREE -+-> clamp -> intensity
+//                             +-> front end -> divisor, quotient digits -------+
 //
-//   rank      polynomial       tail
+//   rank      cubic            tail
 //   0         ROM word         ROM word                    fetch
 //   1         v                x                           front end
 //   2         stage 1: t1      divisor, first remainder    middle
@@ -48,22 +48,8 @@ module blysk #(
 
   // ---- Rank 0: fetch ------------------------------------------------------------------------------
   logic [blysk_pkg::INPUT_WIDTH-1:0]  x_q;
-  logic                    no_word;
-  logic [blysk_pkg::C3_WIDTH-1:0]     c3;
-  logic [blysk_pkg::C2_WIDTH-1:0]     c2;
-  logic [blysk_pkg::C1_WIDTH-1:0]     c1;
-  logic [blysk_pkg::C0_WIDTH-1:0]     c0;
-  logic [blysk_pkg::CUT_WIDTH-1:0]    cut;
-  logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift;
-  // Of the second segment, where there is one.
-  logic [blysk_pkg::C3_OUTER_WIDTH-1:0]    c3_outer;
-  logic [blysk_pkg::C2_OUTER_WIDTH-1:0]    c2_outer;
-  logic [blysk_pkg::C1_OUTER_WIDTH-1:0]    c1_outer;
-  logic [blysk_pkg::C0_OUTER_WIDTH-1:0]    c0_outer;
-  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over;
-  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer;
-  logic [blysk_pkg::TAIL_A_WIDTH-1:0] tail_a;
-  logic [blysk_pkg::TAIL_B_WIDTH-1:0] tail_b;
+  logic                               no_word;
+  logic [blysk_pkg::FIELDS_WIDTH-1:0] fields;   // of the ROM word, and those that are constants
 
   // The status as far as it is known.
   logic [blysk_pkg::STATUS_WIDTH-1:0] fetch_status;
@@ -79,11 +65,7 @@ module blysk #(
   blysk_rom #(
     .ROM_FILE(ROM_FILE)
   ) rom (
-    .clk_i, .load_i(load[0]), .address_i, .no_word_o(no_word),
-    .c3_o(c3), .c2_o(c2), .c1_o(c1), .c0_o(c0), .cut_o(cut), .shift_o(shift),
-    .c3_outer_o(c3_outer), .c2_outer_o(c2_outer), .c1_outer_o(c1_outer), .c0_outer_o(c0_outer),
-    .hand_over_o(hand_over), .shift_outer_o(shift_outer),
-    .tail_a_o(tail_a), .tail_b_o(tail_b)
+    .clk_i, .load_i(load[0]), .address_i, .no_word_o(no_word), .fields_o(fields)
   );
 
   // ---- Rank 1: front end --------------------------------------------------------------------------
@@ -91,111 +73,93 @@ module blysk #(
   logic [blysk_pkg::X_WIDTH-1:0]      tail_x;
   logic [blysk_pkg::REGION_WIDTH-1:0] region;
   logic [blysk_pkg::STATUS_WIDTH-1:0] status;
-  logic                               outer;
+  logic [blysk_pkg::SEGMENTS-1:0]     beyond;
 
   blysk_front_end front_end (
     .clk_i, .load_i(load[1]),
-    .x_i(x_q), .status_i(fetch_status), .cut_i(cut), .shift_i(shift),
-    .hand_over_i(hand_over), .shift_outer_i(shift_outer), .outer_o(outer),
+    .x_i(x_q), .status_i(fetch_status), .fields_i(fields), .beyond_o(beyond),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 
   // ---- The middle ranks: the polynomial -----------------------------------------------------------
-  logic [blysk_pkg::T3_WIDTH-1:0] t3_waited;
+  logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0] t_waited;
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : polynomial
-    // The coefficients of the segment that answers.
-    logic [blysk_pkg::C3_WIDTH-1:0] c3_chosen;
-    logic [blysk_pkg::C2_WIDTH-1:0] c2_chosen;
-    logic [blysk_pkg::C1_WIDTH-1:0] c1_chosen;
-    logic [blysk_pkg::C0_WIDTH-1:0] c0_chosen;
+    localparam int DEGREE   = blysk_pkg::DEGREE;
+    localparam int SEGMENTS = blysk_pkg::SEGMENTS;
+    localparam int V_WIDTH  = blysk_pkg::V_WIDTH;
 
-    if (blysk_pkg::SEGMENTS > 1) begin : segments
-      assign c3_chosen = outer ? c3_outer : c3;
-      assign c2_chosen = outer ? c2_outer : c2;
-      assign c1_chosen = outer ? c1_outer : c1;
-      assign c0_chosen = outer ? c0_outer : c0;
-    end else begin : one_segment
-      assign c3_chosen = c3;
-      assign c2_chosen = c2;
-      assign c1_chosen = c1;
-      assign c0_chosen = c0;
-      logic unused;
-      assign unused = &{1'b0, outer, c3_outer, c2_outer, c1_outer, c0_outer};
+    // Coefficient i of the segment that answers waits for the stage that needs it: the two highest for stage 1, each
+    // other for the stage after.
+    genvar i, k;
+    for (i = 0; i <= DEGREE; i = i + 1) begin : coefficient
+      localparam int WIDTH = blysk_pkg::C_WIDTH[32*i+:32];
+      localparam int RANKS = i == DEGREE ? 1 : DEGREE - i;
+      logic [WIDTH-1:0] chosen, at_stage;
+      for (k = 0; k < SEGMENTS; k = k + 1) begin : segment
+        localparam int PLACE = blysk_pkg::C_PLACE[32*(k*(DEGREE+1)+i)+:32];
+        // Of segment k, or of the one before that answers.
+        logic [WIDTH-1:0] choice;
+        if (k == 0) begin : first
+          assign choice = fields[PLACE+:WIDTH];
+        end else begin : further
+          assign choice = beyond[k] ? fields[PLACE+:WIDTH] : segment[k-1].choice;
+        end
+      end
+      assign chosen = segment[SEGMENTS-1].choice;
+      blysk_delay #(.WIDTH(WIDTH), .RANKS(RANKS), .STORED(blysk_pkg::C_CARRIED[32*i+:32])) delay (
+        .clk_i, .load_i(load[RANKS:1]), .value_i(chosen), .value_o(at_stage));
     end
 
-    // A coefficient and the variable wait for the stage that needs them.
-    logic [blysk_pkg::C3_WIDTH-1:0] c3_at_1;
-    logic [blysk_pkg::C2_WIDTH-1:0] c2_at_1;
-    logic [blysk_pkg::C1_WIDTH-1:0] c1_at_2;
-    logic [blysk_pkg::C0_WIDTH-1:0] c0_at_3;
-    logic [blysk_pkg::V_WIDTH-1:0]  v_at_2, v_at_3;
-    logic [blysk_pkg::T1_WIDTH-1:0] t1;
-    logic [blysk_pkg::T2_WIDTH-1:0] t2;
-    logic [blysk_pkg::T3_WIDTH-1:0] t3;
+    // Segment 0 needs no bit: it answers where no other one does.
+    logic unused;
+    assign unused = &{1'b0, beyond};
 
-    blysk_delay #(.WIDTH(blysk_pkg::C3_WIDTH), .RANKS(1), .STORED(blysk_pkg::C3_CARRIED)) c3_delay (
-      .clk_i, .load_i(load[1]), .value_i(c3_chosen), .value_o(c3_at_1));
-    blysk_delay #(.WIDTH(blysk_pkg::C2_WIDTH), .RANKS(1), .STORED(blysk_pkg::C2_CARRIED)) c2_delay (
-      .clk_i, .load_i(load[1]), .value_i(c2_chosen), .value_o(c2_at_1));
-    blysk_delay #(.WIDTH(blysk_pkg::C1_WIDTH), .RANKS(2), .STORED(blysk_pkg::C1_CARRIED)) c1_delay (
-      .clk_i, .load_i(load[2:1]), .value_i(c1_chosen), .value_o(c1_at_2));
-    blysk_delay #(.WIDTH(blysk_pkg::C0_WIDTH), .RANKS(3), .STORED(blysk_pkg::C0_CARRIED)) c0_delay (
-      .clk_i, .load_i(load[3:1]), .value_i(c0_chosen), .value_o(c0_at_3));
-    blysk_delay #(.WIDTH(blysk_pkg::V_WIDTH), .RANKS(1)) v_delay_2 (
-      .clk_i, .load_i(load[2]), .value_i(v), .value_o(v_at_2));
-    blysk_delay #(.WIDTH(blysk_pkg::V_WIDTH), .RANKS(1)) v_delay_3 (
-      .clk_i, .load_i(load[3]), .value_i(v_at_2), .value_o(v_at_3));
+    // Stage j: t(j) = c(DEGREE - j) +- t(j - 1)*v, where t(0) is the highest coefficient.
+    genvar j;
+    for (j = 1; j <= DEGREE; j = j + 1) begin : stage
+      localparam int T_WIDTH = blysk_pkg::T_WIDTH[32*j+:32];
+      localparam int M_WIDTH = blysk_pkg::T_WIDTH[32*(j-1)+:32];
+      localparam int A_WIDTH = blysk_pkg::C_WIDTH[32*(DEGREE-j)+:32];
+      logic [V_WIDTH-1:0] v_here;
+      logic [M_WIDTH-1:0] multiplicand;
+      logic [T_WIDTH-1:0] t;
 
-    blysk_stage #(
-      .MULTIPLICAND_WIDTH(blysk_pkg::C3_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::C3_SIGNED),
-      .VARIABLE_WIDTH(blysk_pkg::V_WIDTH),
-      .ADDEND_WIDTH(blysk_pkg::C2_WIDTH), .ADDEND_SIGNED(blysk_pkg::C2_SIGNED),
-      .T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
-      .PRODUCT_UP(blysk_pkg::T1_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T1_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T1_RESULT_UP), .DROP(blysk_pkg::T1_DROP),
-      .SUM_WIDTH(blysk_pkg::T1_SUM_WIDTH), .ROUNDING(blysk_pkg::T1_ROUNDING)
-    ) stage1 (
-      .clk_i, .load_i(load[2]),
-      .multiplicand_i(c3_at_1), .variable_i(v), .addend_i(c2_at_1), .t_o(t1)
-    );
+      if (j == 1) begin : first
+        assign v_here       = v;
+        assign multiplicand = coefficient[DEGREE].at_stage;
+      end else begin : later
+        assign multiplicand = stage[j-1].t;
+        blysk_delay #(.WIDTH(V_WIDTH), .RANKS(1)) v_delay (
+          .clk_i, .load_i(load[j]), .value_i(stage[j-1].v_here), .value_o(v_here));
+      end
 
-    blysk_stage #(
-      .MULTIPLICAND_WIDTH(blysk_pkg::T1_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::T1_SIGNED),
-      .VARIABLE_WIDTH(blysk_pkg::V_WIDTH),
-      .ADDEND_WIDTH(blysk_pkg::C1_WIDTH), .ADDEND_SIGNED(blysk_pkg::C1_SIGNED),
-      .T_WIDTH(blysk_pkg::T2_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
-      .PRODUCT_UP(blysk_pkg::T2_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T2_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T2_RESULT_UP), .DROP(blysk_pkg::T2_DROP),
-      .SUM_WIDTH(blysk_pkg::T2_SUM_WIDTH), .ROUNDING(blysk_pkg::T2_ROUNDING)
-    ) stage2 (
-      .clk_i, .load_i(load[3]),
-      .multiplicand_i(t1), .variable_i(v_at_2), .addend_i(c1_at_2), .t_o(t2)
-    );
+      blysk_stage #(
+        .MULTIPLICAND_WIDTH(M_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::T_SIGNED[32*(j-1)+:32]),
+        .VARIABLE_WIDTH(V_WIDTH),
+        .ADDEND_WIDTH(A_WIDTH), .ADDEND_SIGNED(blysk_pkg::C_SIGNED[32*(DEGREE-j)+:32]),
+        .T_WIDTH(T_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
+        .PRODUCT_UP(blysk_pkg::T_PRODUCT_UP[32*j+:32]), .ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32]),
+        .RESULT_UP(blysk_pkg::T_RESULT_UP[32*j+:32]), .DROP(blysk_pkg::T_DROP[32*j+:32]),
+        .SUM_WIDTH(blysk_pkg::T_SUM_WIDTH[32*j+:32]), .ROUNDING(blysk_pkg::T_ROUNDING[32*j+:32])
+      ) multiply_add (
+        .clk_i, .load_i(load[j+1]),
+        .multiplicand_i(multiplicand), .variable_i(v_here), .addend_i(coefficient[DEGREE-j].at_stage), .t_o(t)
+      );
+    end
 
-    blysk_stage #(
-      .MULTIPLICAND_WIDTH(blysk_pkg::T2_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::T2_SIGNED),
-      .VARIABLE_WIDTH(blysk_pkg::V_WIDTH),
-      .ADDEND_WIDTH(blysk_pkg::C0_WIDTH), .ADDEND_SIGNED(blysk_pkg::C0_SIGNED),
-      .T_WIDTH(blysk_pkg::T3_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
-      .PRODUCT_UP(blysk_pkg::T3_PRODUCT_UP), .ADDEND_UP(blysk_pkg::T3_ADDEND_UP),
-      .RESULT_UP(blysk_pkg::T3_RESULT_UP), .DROP(blysk_pkg::T3_DROP),
-      .SUM_WIDTH(blysk_pkg::T3_SUM_WIDTH), .ROUNDING(blysk_pkg::T3_ROUNDING)
-    ) stage3 (
-      .clk_i, .load_i(load[4]),
-      .multiplicand_i(t2), .variable_i(v_at_3), .addend_i(c0_at_3), .t_o(t3)
-    );
-
-    if (blysk_pkg::RANKS > 6) begin : wait_for_tail
-      blysk_delay #(.WIDTH(blysk_pkg::T3_WIDTH), .RANKS(blysk_pkg::RANKS - 6)) t3_delay (
-        .clk_i, .load_i(load[blysk_pkg::RANKS-2:5]), .value_i(t3), .value_o(t3_waited));
+    // The last result is in rank DEGREE + 1; the clamp takes it from rank RANKS - 2.
+    localparam int WAIT = blysk_pkg::RANKS - 3 - DEGREE;
+    if (WAIT > 0) begin : wait_for_tail
+      blysk_delay #(.WIDTH(blysk_pkg::POLYNOMIAL_WIDTH), .RANKS(WAIT)) t_delay (
+        .clk_i, .load_i(load[blysk_pkg::RANKS-2:DEGREE+2]), .value_i(stage[DEGREE].t), .value_o(t_waited));
     end else begin : no_wait
-      assign t3_waited = t3;
+      assign t_waited = stage[DEGREE].t;
     end
   end else begin : no_polynomial
-    assign t3_waited = '0;
+    assign t_waited = '0;
     logic unused;
-    assign unused = &{1'b0, c3, c2, c1, c0, v, outer, c3_outer, c2_outer, c1_outer, c0_outer};
+    assign unused = &{1'b0, v, beyond};
   end
 
   // ---- The middle ranks: the tail -----------------------------------------------------------------
@@ -205,15 +169,17 @@ module blysk #(
   if (blysk_pkg::HAS_TAIL != 0) begin : tail
     // The rank of the last quotient bits.
     localparam int LAST = 2 + blysk_pkg::DIGIT_STAGES;
-    logic [blysk_pkg::TAIL_A_WIDTH-1:0]  a_at_1;
-    logic [blysk_pkg::TAIL_B_WIDTH-1:0]  b_at_1;
+    logic [blysk_pkg::TAIL_A_WIDTH-1:0]  a, a_at_1;
+    logic [blysk_pkg::TAIL_B_WIDTH-1:0]  b, b_at_1;
+    assign a = fields[blysk_pkg::TAIL_A_PLACE+:blysk_pkg::TAIL_A_WIDTH];
+    assign b = fields[blysk_pkg::TAIL_B_PLACE+:blysk_pkg::TAIL_B_WIDTH];
     logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder;
     logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits;
 
     blysk_delay #(.WIDTH(blysk_pkg::TAIL_A_WIDTH), .RANKS(1), .STORED(blysk_pkg::TAIL_A_STORED)) a_delay (
-      .clk_i, .load_i(load[1]), .value_i(tail_a), .value_o(a_at_1));
+      .clk_i, .load_i(load[1]), .value_i(a), .value_o(a_at_1));
     blysk_delay #(.WIDTH(blysk_pkg::TAIL_B_WIDTH), .RANKS(1), .STORED(blysk_pkg::TAIL_B_STORED)) b_delay (
-      .clk_i, .load_i(load[1]), .value_i(tail_b), .value_o(b_at_1));
+      .clk_i, .load_i(load[1]), .value_i(b), .value_o(b_at_1));
 
     blysk_tail divider (
       .clk_i, .load_i(load[LAST:2]),
@@ -234,7 +200,7 @@ module blysk #(
     assign remainder_waited = '0;
     assign digits_waited    = '0;
     logic unused;
-    assign unused = &{1'b0, tail_a, tail_b, tail_x};
+    assign unused = &{1'b0, tail_x};
   end
 
   // ---- Region and status go along -----------------------------------------------------------------
@@ -250,7 +216,7 @@ module blysk #(
   blysk_clamp clamp (
     .clk_i, .load_i(load[blysk_pkg::RANKS-1]),
     .region_i(region_waited), .status_i(status_waited),
-    .t3_i(t3_waited), .remainder_i(remainder_waited), .digits_i(digits_waited),
+    .t_i(t_waited), .remainder_i(remainder_waited), .digits_i(digits_waited),
     .intensity_o, .status_o
   );
 

@@ -1,8 +1,8 @@
 // The last rank: the answer of the part that has it, clamped to [0, 1], and the status.
 // Twin of src/datapath/clamp.rs and of Divider::finish in src/datapath/tail.rs.
 //
-// t3 has the output's fraction bits already, with integer bits (and a sign) for every value the
-// polynomial can take. A cubic may dip below zero above its cut, or round to one ulp above 1; both are
+// t, the result of the last stage, has the output's fraction bits already, with integer bits (and a sign) for every
+// value the polynomial can take. It may dip below zero above its cut, or round to one ulp above 1; both are
 // clamped, and said so in the status.
 //
 // The quotient has one fraction bit more than the output; the last remainder, zero or not, stands for
@@ -15,7 +15,7 @@ module blysk_clamp (
   input  logic                                load_i,
   input  logic [blysk_pkg::REGION_WIDTH-1:0]  region_i,
   input  logic [blysk_pkg::STATUS_WIDTH-1:0]  status_i,
-  input  logic [blysk_pkg::T3_WIDTH-1:0]      t3_i,
+  input  logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0]      t_i,
   input  logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_i,
   input  logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_i,
   output logic [blysk_pkg::OUTPUT_WIDTH-1:0]  intensity_o,
@@ -28,23 +28,23 @@ module blysk_clamp (
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : clamp
     logic below, above;
-    if (blysk_pkg::T3_SIGNED != 0) begin : signed_t3
-      assign below = t3_i[blysk_pkg::T3_WIDTH-1];
-    end else begin : unsigned_t3
+    if (blysk_pkg::POLYNOMIAL_SIGNED != 0) begin : signed_t
+      assign below = t_i[blysk_pkg::POLYNOMIAL_WIDTH-1];
+    end else begin : unsigned_t
       assign below = 1'b0;
     end
-    if (blysk_pkg::T3_EXCEEDS_ONE != 0) begin : wide_t3
-      assign above = !below && t3_i > blysk_pkg::T3_WIDTH'(blysk_pkg::OUTPUT_GREATEST);
-    end else begin : narrow_t3
+    if (blysk_pkg::POLYNOMIAL_EXCEEDS_ONE != 0) begin : wide_t
+      assign above = !below && t_i > blysk_pkg::POLYNOMIAL_WIDTH'(blysk_pkg::OUTPUT_GREATEST);
+    end else begin : narrow_t
       assign above = 1'b0;
     end
-    assign polynomial = below ? '0 : above ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(t3_i);
+    assign polynomial = below ? '0 : above ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(t_i);
     assign clamped    = region_i == blysk_pkg::REGION_POLYNOMIAL && (below || above);
   end else begin : no_clamp
     assign polynomial = '0;
     assign clamped    = 1'b0;
     logic unused;
-    assign unused = &{1'b0, t3_i};
+    assign unused = &{1'b0, t_i};
   end
 
   // ---- The quotient -------------------------------------------------------------------------------

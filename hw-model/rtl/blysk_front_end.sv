@@ -3,23 +3,23 @@
 //
 // x clamps to [0, 1]. Against the row's cut it falls into a region:
 //
-//   polynomial  x >= cut                                      the three stages answer
+//   polynomial  x >= cut                                      the stages answer
 //   tail        0 <= x < cut, configuration keeps a divider   the divider answers
 //   zero        0 <= x < cut without one; x < 0; no ROM word  the intensity is 0
 //
 // A configuration with a domain has one status bit more, out_of_domain: its cut is the least x that is presented, and
 // 0 <= x < cut with a ROM word is refused.
 //
-// With two segments (SEGMENTS = 2) the second answers from cut up to hand_over: outer_o chooses its
-// coefficients, and its variable counts from hand_over.
+// With several segments (SEGMENTS > 1) the last answers from cut up to its hand-over, the one before from there up to
+// its own, and so on: beyond_o chooses the coefficients, and the variable counts from the hand-over.
 //
-// The ROM's cut and hand_over may have fewer fraction bits than x: CUT_UP and HAND_OVER_UP places of zeros bring
+// The ROM's cut and hand-overs may have fewer fraction bits than x: CUT_UP and HAND_OVER_UP places of zeros bring
 // them to the unit of x.
 //
 // A part that does not answer is fed a harmless x, for which the ranges of its registers are proved
 // too: the polynomial u = 0, or the greatest x in the power form; the divider x = 0.
 //
-// Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x (or hand_over - x) needs INPUT_FRACTION + 1. u = s * 2^e is
+// Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x (or hand-over - x) needs INPUT_FRACTION + 1. u = s * 2^e is
 // less than 2^V_WIDTH in its own unit for every row's cut, so U_WIDTH = V_WIDTH + U_DROP and a carry
 // bit and a sign hold it before its rounding.
 `timescale 1ns / 1ps
@@ -30,11 +30,8 @@ module blysk_front_end (
   input  logic                               load_i,
   input  logic [blysk_pkg::INPUT_WIDTH-1:0]  x_i,
   input  logic [blysk_pkg::STATUS_WIDTH-1:0] status_i,
-  input  logic [blysk_pkg::CUT_WIDTH-1:0]    cut_i,
-  input  logic [blysk_pkg::SHIFT_WIDTH-1:0]  shift_i,
-  input  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over_i,
-  input  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer_i,
-  output logic                               outer_o,       // not registered
+  input  logic [blysk_pkg::FIELDS_WIDTH-1:0] fields_i,
+  output logic [blysk_pkg::SEGMENTS-1:0]     beyond_o,      // not registered
   output logic [blysk_pkg::V_WIDTH-1:0]      v_o,
   output logic [blysk_pkg::X_WIDTH-1:0]      tail_x_o,
   output logic [blysk_pkg::REGION_WIDTH-1:0] region_o,
@@ -63,13 +60,13 @@ module blysk_front_end (
   assign no_word = status_i[blysk_pkg::STATUS_NO_WORD];
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : cut
+    logic [blysk_pkg::CUT_WIDTH-1:0]         of_row;
     logic [blysk_pkg::CUT_COMPARE_WIDTH-1:0] least_x;
-    assign least_x = blysk_pkg::CUT_COMPARE_WIDTH'(cut_i) << blysk_pkg::CUT_UP;
+    assign of_row    = fields_i[blysk_pkg::CUT_PLACE+:blysk_pkg::CUT_WIDTH];
+    assign least_x   = blysk_pkg::CUT_COMPARE_WIDTH'(of_row) << blysk_pkg::CUT_UP;
     assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= least_x;
   end else begin : no_cut
     assign above_cut = 1'b0;
-    logic unused;
-    assign unused = &{1'b0, cut_i};
   end
 
   always_comb begin
@@ -86,36 +83,57 @@ module blysk_front_end (
   assign region_o = region_q;
 
   // ---- Which segment -------------------------------------------------------------------------------
-  if (blysk_pkg::SEGMENTS > 1) begin : segments
-    logic [blysk_pkg::HAND_OVER_COMPARE_WIDTH-1:0] least_x;
-    assign least_x = blysk_pkg::HAND_OVER_COMPARE_WIDTH'(hand_over_i) << blysk_pkg::HAND_OVER_UP;
-    assign outer_o = region_d == blysk_pkg::REGION_POLYNOMIAL
-        && blysk_pkg::HAND_OVER_COMPARE_WIDTH'(x) < least_x;
-  end else begin : one_segment
-    assign outer_o = 1'b0;
-    logic unused;
-    assign unused = &{1'b0, hand_over_i, shift_outer_i};
-  end
+  // Bit k: x lies below the hand-over to segment k. The highest bit set is the segment that answers.
+  assign beyond_o[0] = 1'b0;
 
-  // ---- The polynomial's variable: x, or u = (1 - x) * 2^e -----------------------------------------
+  // Where v counts from (start), and the places it is moved up (shift): of segment k, or of the one before it that
+  // answers.
+  localparam int SEGMENTS   = blysk_pkg::SEGMENTS;
+  localparam int S_WIDTH    = blysk_pkg::INPUT_FRACTION + 1;
+  localparam int SHIFT_BITS = blysk_pkg::SHIFT_COMMON_WIDTH;
+
+  genvar k;
+  generate
+    for (k = 0; k < SEGMENTS; k = k + 1) begin : segment
+      localparam int SHIFT_WIDTH = blysk_pkg::SHIFT_WIDTHS[32*k+:32];
+      localparam int SHIFT_PLACE = blysk_pkg::SHIFT_PLACES[32*k+:32];
+      logic [SHIFT_BITS-1:0] own_shift, shift;
+      logic [S_WIDTH-1:0]    start;
+      if (blysk_pkg::CENTRED != 0 && blysk_pkg::HAS_POLYNOMIAL != 0) begin : shifted
+        assign own_shift = SHIFT_BITS'(fields_i[SHIFT_PLACE+:SHIFT_WIDTH]);
+      end else begin : not_shifted
+        assign own_shift = '0;
+      end
+
+      if (k == 0) begin : first
+        assign start = S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
+        assign shift = own_shift;
+      end else begin : further
+        localparam int WIDTH   = blysk_pkg::HAND_OVER_WIDTHS[32*k+:32];
+        localparam int PLACE   = blysk_pkg::HAND_OVER_PLACES[32*k+:32];
+        localparam int COMPARE = blysk_pkg::HAND_OVER_COMPARE_WIDTH;
+        logic [WIDTH-1:0]   of_row;
+        logic [COMPARE-1:0] hand_over;
+        assign of_row      = fields_i[PLACE+:WIDTH];
+        assign hand_over   = COMPARE'(of_row) << blysk_pkg::HAND_OVER_UP;
+        assign beyond_o[k] = region_d == blysk_pkg::REGION_POLYNOMIAL && COMPARE'(x) < hand_over;
+        assign start       = beyond_o[k] ? S_WIDTH'(of_row) << blysk_pkg::HAND_OVER_UP : segment[k-1].start;
+        assign shift       = beyond_o[k] ? own_shift : segment[k-1].shift;
+      end
+    end
+  endgenerate
+
+  // ---- The polynomial's variable: x, or u = (start - x) * 2^shift ---------------------------------
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : variable
     logic [blysk_pkg::V_WIDTH-1:0] v_d, v_q;
 
     if (blysk_pkg::CENTRED != 0) begin : centred
-      localparam int S_WIDTH = blysk_pkg::INPUT_FRACTION + 1;
       localparam int U_WIDTH = blysk_pkg::V_WIDTH + blysk_pkg::U_DROP + 2;
-      localparam int SHIFT_BITS = blysk_pkg::SHIFT_COMMON_WIDTH;
       logic        [S_WIDTH-1:0]    start, s;
       logic        [SHIFT_BITS-1:0] shift;
       logic signed [U_WIDTH-1:0]    u;
-      if (blysk_pkg::SEGMENTS > 1) begin : second
-        assign start = outer_o ? S_WIDTH'(hand_over_i) << blysk_pkg::HAND_OVER_UP
-                               : S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
-        assign shift = outer_o ? SHIFT_BITS'(shift_outer_i) : SHIFT_BITS'(shift_i);
-      end else begin : first
-        assign start = S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
-        assign shift = SHIFT_BITS'(shift_i);
-      end
+      assign start = segment[SEGMENTS-1].start;
+      assign shift = segment[SEGMENTS-1].shift;
       assign s = region_d == blysk_pkg::REGION_POLYNOMIAL ? start - S_WIDTH'(x) : '0;
       assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift;
       blysk_round_shift #(
@@ -125,8 +143,6 @@ module blysk_front_end (
       );
     end else begin : power
       assign v_d = region_d == blysk_pkg::REGION_POLYNOMIAL ? x : blysk_pkg::X_GREATEST;
-      logic unused;
-      assign unused = &{1'b0, shift_i};
     end
 
     always_ff @(posedge clk_i) begin
@@ -135,8 +151,6 @@ module blysk_front_end (
     assign v_o = v_q;
   end else begin : no_variable
     assign v_o = '0;
-    logic unused;
-    assign unused = &{1'b0, shift_i};
   end
 
   // ---- The divider's x ----------------------------------------------------------------------------
@@ -174,6 +188,10 @@ module blysk_front_end (
     if (load_i) status_q <= status_d;
   end
   assign status_o = status_q;
+
+  // The fields that other ranks read, and what a form does not have.
+  logic unused;
+  assign unused = &{1'b0, fields_i, segment[SEGMENTS-1].start, segment[SEGMENTS-1].shift};
 
 endmodule
 

@@ -14,20 +14,8 @@ module blysk_rom #(
   input  logic                                load_i,
   input  logic [blysk_pkg::ADDRESS_WIDTH-1:0] address_i,
   output logic                                no_word_o,
-  output logic [blysk_pkg::C3_WIDTH-1:0]      c3_o,
-  output logic [blysk_pkg::C2_WIDTH-1:0]      c2_o,
-  output logic [blysk_pkg::C1_WIDTH-1:0]      c1_o,
-  output logic [blysk_pkg::C0_WIDTH-1:0]      c0_o,
-  output logic [blysk_pkg::CUT_WIDTH-1:0]     cut_o,
-  output logic [blysk_pkg::SHIFT_WIDTH-1:0]   shift_o,
-  output logic [blysk_pkg::C3_OUTER_WIDTH-1:0] c3_outer_o,
-  output logic [blysk_pkg::C2_OUTER_WIDTH-1:0] c2_outer_o,
-  output logic [blysk_pkg::C1_OUTER_WIDTH-1:0] c1_outer_o,
-  output logic [blysk_pkg::C0_OUTER_WIDTH-1:0] c0_outer_o,
-  output logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over_o,
-  output logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer_o,
-  output logic [blysk_pkg::TAIL_A_WIDTH-1:0]  tail_a_o,
-  output logic [blysk_pkg::TAIL_B_WIDTH-1:0]  tail_b_o
+  // Every field, stored or constant, at its place in the package.
+  output logic [blysk_pkg::FIELDS_WIDTH-1:0]  fields_o
 );
 
   // ---- The memory -------------------------------------------------------------------------------
@@ -52,76 +40,21 @@ module blysk_rom #(
   assign no_word_o = no_word_q;
 
   // ---- The fields of the word, or their constants -------------------------------------------------
-  if (blysk_pkg::C3_STORED != 0) begin : c3
-    assign c3_o = word_q[blysk_pkg::C3_LSB+:blysk_pkg::C3_WIDTH];
-  end else begin : c3_constant
-    assign c3_o = blysk_pkg::C3_CONSTANT;
-  end
-  if (blysk_pkg::C2_STORED != 0) begin : c2
-    assign c2_o = word_q[blysk_pkg::C2_LSB+:blysk_pkg::C2_WIDTH];
-  end else begin : c2_constant
-    assign c2_o = blysk_pkg::C2_CONSTANT;
-  end
-  if (blysk_pkg::C1_STORED != 0) begin : c1
-    assign c1_o = word_q[blysk_pkg::C1_LSB+:blysk_pkg::C1_WIDTH];
-  end else begin : c1_constant
-    assign c1_o = blysk_pkg::C1_CONSTANT;
-  end
-  if (blysk_pkg::C0_STORED != 0) begin : c0
-    assign c0_o = word_q[blysk_pkg::C0_LSB+:blysk_pkg::C0_WIDTH];
-  end else begin : c0_constant
-    assign c0_o = blysk_pkg::C0_CONSTANT;
-  end
-  if (blysk_pkg::CUT_STORED != 0) begin : cut
-    assign cut_o = word_q[blysk_pkg::CUT_LSB+:blysk_pkg::CUT_WIDTH];
-  end else begin : cut_constant
-    assign cut_o = blysk_pkg::CUT_CONSTANT;
-  end
-  if (blysk_pkg::SHIFT_STORED != 0) begin : shift
-    assign shift_o = word_q[blysk_pkg::SHIFT_LSB+:blysk_pkg::SHIFT_WIDTH];
-  end else begin : shift_constant
-    assign shift_o = blysk_pkg::SHIFT_CONSTANT;
-  end
-  if (blysk_pkg::TAIL_A_STORED != 0) begin : tail_a
-    assign tail_a_o = word_q[blysk_pkg::TAIL_A_LSB+:blysk_pkg::TAIL_A_WIDTH];
-  end else begin : tail_a_constant
-    assign tail_a_o = blysk_pkg::TAIL_A_CONSTANT;
-  end
-  if (blysk_pkg::TAIL_B_STORED != 0) begin : tail_b
-    assign tail_b_o = word_q[blysk_pkg::TAIL_B_LSB+:blysk_pkg::TAIL_B_WIDTH];
-  end else begin : tail_b_constant
-    assign tail_b_o = blysk_pkg::TAIL_B_CONSTANT;
-  end
-  if (blysk_pkg::C3_OUTER_STORED != 0) begin : c3_outer
-    assign c3_outer_o = word_q[blysk_pkg::C3_OUTER_LSB+:blysk_pkg::C3_OUTER_WIDTH];
-  end else begin : c3_outer_constant
-    assign c3_outer_o = blysk_pkg::C3_OUTER_CONSTANT;
-  end
-  if (blysk_pkg::C2_OUTER_STORED != 0) begin : c2_outer
-    assign c2_outer_o = word_q[blysk_pkg::C2_OUTER_LSB+:blysk_pkg::C2_OUTER_WIDTH];
-  end else begin : c2_outer_constant
-    assign c2_outer_o = blysk_pkg::C2_OUTER_CONSTANT;
-  end
-  if (blysk_pkg::C1_OUTER_STORED != 0) begin : c1_outer
-    assign c1_outer_o = word_q[blysk_pkg::C1_OUTER_LSB+:blysk_pkg::C1_OUTER_WIDTH];
-  end else begin : c1_outer_constant
-    assign c1_outer_o = blysk_pkg::C1_OUTER_CONSTANT;
-  end
-  if (blysk_pkg::C0_OUTER_STORED != 0) begin : c0_outer
-    assign c0_outer_o = word_q[blysk_pkg::C0_OUTER_LSB+:blysk_pkg::C0_OUTER_WIDTH];
-  end else begin : c0_outer_constant
-    assign c0_outer_o = blysk_pkg::C0_OUTER_CONSTANT;
-  end
-  if (blysk_pkg::HAND_OVER_STORED != 0) begin : hand_over
-    assign hand_over_o = word_q[blysk_pkg::HAND_OVER_LSB+:blysk_pkg::HAND_OVER_WIDTH];
-  end else begin : hand_over_constant
-    assign hand_over_o = blysk_pkg::HAND_OVER_CONSTANT;
-  end
-  if (blysk_pkg::SHIFT_OUTER_STORED != 0) begin : shift_outer
-    assign shift_outer_o = word_q[blysk_pkg::SHIFT_OUTER_LSB+:blysk_pkg::SHIFT_OUTER_WIDTH];
-  end else begin : shift_outer_constant
-    assign shift_outer_o = blysk_pkg::SHIFT_OUTER_CONSTANT;
-  end
+  genvar i;
+  generate
+    for (i = 0; i < blysk_pkg::FIELDS; i = i + 1) begin : field
+      localparam int WIDTH = blysk_pkg::FIELD_WIDTH[32*i+:32];
+      localparam int PLACE = blysk_pkg::FIELD_PLACE[32*i+:32];
+      localparam int LSB   = blysk_pkg::FIELD_LSB[32*i+:32];
+      logic [WIDTH-1:0] value;
+      if (blysk_pkg::FIELD_STORED[32*i]) begin : stored
+        assign value = word_q[LSB+:WIDTH];
+      end else begin : constant
+        assign value = blysk_pkg::FIELD_CONSTANT[PLACE+:WIDTH];
+      end
+      assign fields_o[PLACE+:WIDTH] = value;
+    end
+  endgenerate
 
 `ifndef SYNTHESIS
 `ifndef FORMAL

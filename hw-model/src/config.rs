@@ -13,8 +13,10 @@ use crate::exponents::Exponents;
 use crate::fit::{Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
 use crate::names;
+use crate::registers::{CUBIC, MAX_DEGREE, MAX_SEGMENTS, Register};
 use crate::rounding::Rounding;
 use crate::steps::{self, CoefficientSteps};
+use crate::widths::StatedWidths;
 
 /// The variable the polynomial is evaluated in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -30,7 +32,7 @@ pub enum Form {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Tail {
-    /// Zero.
+    /// The intensity is 0.
     Zero,
     /// x / (A − B·x), by a divider.
     Rational,
@@ -50,57 +52,6 @@ pub enum Cut {
     /// Where x^n has fallen to the greatest error of the polynomial above, so that a zero below errs no more.
     /// Only for `minimax`, whose range it is.
     Balanced,
-}
-
-/// Formats stated by hand instead of derived. They are checked: a register that could overflow is
-/// refused.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct StatedWidths {
-    /// u, in the centred form.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub u: Option<QFormat>,
-    /// Coefficient of v³.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub c3: Option<QFormat>,
-    /// Coefficient of v².
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub c2: Option<QFormat>,
-    /// Coefficient of v.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub c1: Option<QFormat>,
-    /// Constant coefficient.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub c0: Option<QFormat>,
-    /// Result of stage 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t1: Option<QFormat>,
-    /// Result of stage 2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t2: Option<QFormat>,
-    /// The least x at which the polynomial answers, rounded down: unsigned, at most one integer bit, and no more
-    /// fraction bits than x. With a domain, whose least x takes its place with all bits of x, it still says below
-    /// what the domain may not begin, and which lengths the shifts are fitted to.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cut: Option<QFormat>,
-    /// The least x at which the first of two segments answers, rounded to the nearest; a format as that of the cut.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hand_over: Option<QFormat>,
-    /// A of the tail.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tail_a: Option<QFormat>,
-    /// B of the tail.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tail_b: Option<QFormat>,
-    /// Divisor of the tail.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub divisor: Option<QFormat>,
-}
-
-impl StatedWidths {
-    fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 /// One configuration.
@@ -135,9 +86,13 @@ pub struct Config {
     /// Where the polynomial stops.
     #[serde(default = "default_cut")]
     pub cut: Cut,
-    /// Cubics for one exponent, 1 or 2. The second counts from where the first hands over to it.
+    /// The degree of the polynomials, 1 to 4, and the number of multiply-add stages: 3 for the cubics of \[Rom\], 2 or
+    /// 3 for a parabola, any for minimax.
+    #[serde(default = "default_degree", skip_serializing_if = "is_cubic")]
+    pub degree: usize,
+    /// Polynomials for one exponent, 1 to 8. A further one counts from where the one before hands over to it.
     #[serde(default = "default_segments", skip_serializing_if = "is_one")]
-    pub segments: u32,
+    pub segments: usize,
     /// The rounding of every line.
     #[serde(default)]
     pub rounding: Rounding,
@@ -175,12 +130,19 @@ const fn default_form() -> Form {
 const fn default_tail() -> Tail {
     Tail::Zero
 }
-const fn default_segments() -> u32 {
+const fn default_degree() -> usize {
+    CUBIC
+}
+// serde hands over references.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+const fn is_cubic(degree: &usize) -> bool {
+    *degree == CUBIC
+}
+const fn default_segments() -> usize {
     1
 }
-// serde hands over a reference.
 #[allow(clippy::trivially_copy_pass_by_ref)]
-const fn is_one(segments: &u32) -> bool {
+const fn is_one(segments: &usize) -> bool {
     *segments == 1
 }
 const fn default_cut() -> Cut {
@@ -203,7 +165,7 @@ pub enum ConfigError {
     /// A field whose value cannot be used.
     #[error("field `{field}`: {problem}")]
     Field {
-        /// The field.
+        /// The field's name in the JSON.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,
@@ -239,8 +201,7 @@ impl Config {
     /// # Errors
     /// When not 0 < G < Q < 1.
     pub fn levels(&self) -> Result<Levels, ConfigError> {
-        Levels::new(self.q, self.g)
-            .map_err(|error| ConfigError::Field { field: "q, g", problem: error.to_string() })
+        Levels::new(self.q, self.g).map_err(|error| ConfigError::Field { field: "q, g", problem: error.to_string() })
     }
 
     /// Checks what can be checked without deriving widths.
@@ -253,6 +214,7 @@ impl Config {
             return wrong("name", error.to_string());
         }
         self.check_method()?;
+        self.check_degree()?;
         self.check_segments()?;
         self.check_formats()?;
         steps::check(self)?;
@@ -285,17 +247,34 @@ impl Config {
                 wrong("tail", "schlick is a ratio: say \"tail\": \"rational\"")
             }
             Method::Schlick => Ok(()),
-            _ if self.tail == Tail::Rational && self.cut != Cut::Epicentre => wrong(
-                "cut",
-                "a rational tail meets the polynomial at q: say \"cut\": \"epicentre\"",
-            ),
+            _ if self.tail == Tail::Rational && self.cut != Cut::Epicentre => {
+                wrong("cut", "a rational tail meets the polynomial at q: say \"cut\": \"epicentre\"")
+            }
             _ => Ok(()),
         }
     }
 
+    fn check_degree(&self) -> Result<(), ConfigError> {
+        let (allowed, would_be_right) = match self.method {
+            Method::Minimax => (1..=MAX_DEGREE, "use 1 to 4"),
+            Method::Quadratic => (2..=CUBIC, "quadratic is a parabola: say 2, or 3 for a cubic without x³"),
+            _ => (CUBIC..=CUBIC, "only minimax and quadratic have other degrees: leave it out, or say 3"),
+        };
+        if !allowed.contains(&self.degree) {
+            return wrong("degree", would_be_right);
+        }
+        if self.method == Method::Minimax && self.degree != CUBIC && self.cut == Cut::Minimum {
+            return wrong(
+                "cut",
+                "the minimum is looked for in cubics: say \"epicentre\" or \"balanced\", or leave the degree out",
+            );
+        }
+        Ok(())
+    }
+
     fn check_segments(&self) -> Result<(), ConfigError> {
-        if !(1..=2).contains(&self.segments) {
-            return wrong("segments", "use 1 or 2");
+        if !(1..=MAX_SEGMENTS).contains(&self.segments) {
+            return wrong("segments", "use 1 to 8");
         }
         if self.cut == Cut::Balanced && self.method != Method::Minimax {
             return wrong(
@@ -310,24 +289,18 @@ impl Config {
         if self.method != Method::Minimax || self.form != Form::Centred || self.tail != Tail::Zero {
             return wrong(
                 "segments",
-                "two segments are for \"method\": \"minimax\", \"form\": \"centred\", \"tail\": \"zero\"",
+                "two segments or more are for \"method\": \"minimax\", \"form\": \"centred\", \"tail\": \"zero\"",
             );
         }
         if self.cut == Cut::Minimum {
-            return wrong(
-                "cut",
-                "two segments end at q or where they are balanced: say \"balanced\"",
-            );
+            return wrong("cut", "two segments or more end at q or where they are balanced: say \"balanced\"");
         }
         Ok(())
     }
 
     fn check_formats(&self) -> Result<(), ConfigError> {
         if self.output.is_signed() {
-            return wrong(
-                "output",
-                "an intensity is not negative: use an unsigned format (UQ1.15)",
-            );
+            return wrong("output", "an intensity is not negative: use an unsigned format (UQ1.15)");
         }
         // 63 fraction bits would leave no room for 1 in that unit.
         let fraction = 1..=MAX_WIDTH - 1;
@@ -343,29 +316,38 @@ impl Config {
 
     /// A format stated for a register that the configuration does not have is a mistake.
     fn check_stated(&self) -> Result<(), ConfigError> {
-        let StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, tail_a, tail_b, divisor } =
-            &self.widths;
         let polynomial = self.method != Method::Schlick;
-        let stated = |formats: &[&Option<QFormat>]| formats.iter().any(|format| format.is_some());
-        if stated(&[u]) && (self.form == Form::Power || !polynomial) {
+        let widths = &self.widths;
+        let stated = |registers: &[Register]| registers.iter().any(|&r| widths[r].is_some());
+        if stated(&[Register::V]) && (self.form == Form::Power || !polynomial) {
             return wrong("widths.u", "only the centred form has a u; leave it out");
         }
-        if stated(&[c3, c2, c1, c0, t1, t2, cut]) && !polynomial {
+        let of_polynomial = |register: Register| matches!(register, Register::C(..) | Register::T(_) | Register::Cut);
+        if widths.iter().any(|(register, _)| of_polynomial(register)) && !polynomial {
+            return wrong("widths", "schlick has no polynomial; leave out c3 to c0, t1, t2 and cut");
+        }
+        // The last stage gives the output's fraction bits, and its range decides the rest.
+        let degree = self.degree;
+        let beyond = |register: Register| match register {
+            Register::C(_, power) => power > degree,
+            Register::T(stage) => stage >= degree,
+            _ => false,
+        };
+        if let Some((register, _)) = widths.iter().find(|&(register, _)| beyond(register)) {
             return wrong(
                 "widths",
-                "schlick has no polynomial; leave out c3 to c0, t1, t2 and cut",
+                format!("there is no format of {register} to state where the degree is {degree}; leave it out"),
             );
         }
-        if hand_over.is_some() && self.segments < 2 {
-            return wrong("widths.hand_over", "only two segments hand over; leave it out");
+        if stated(&[Register::HandOver(1)]) && self.segments < 2 {
+            return wrong("widths.hand_over", "only two segments or more hand over; leave it out");
         }
         let within_x = |format: &QFormat| {
-            !format.is_signed()
-                && format.integer_bits() <= 1
-                && format.fraction_bits() <= self.input.fraction_bits()
+            !format.is_signed() && format.integer_bits() <= 1 && format.fraction_bits() <= self.input.fraction_bits()
         };
-        for (name, format) in [("widths.cut", cut), ("widths.hand_over", hand_over)] {
-            if !format.as_ref().is_none_or(within_x) {
+        let ends = [("widths.cut", Register::Cut), ("widths.hand_over", Register::HandOver(1))];
+        for (name, end) in ends {
+            if !widths[end].as_ref().is_none_or(within_x) {
                 return wrong(
                     name,
                     "it is compared with x and at most 1: give an unsigned format with at most one \
@@ -373,7 +355,7 @@ impl Config {
                 );
             }
         }
-        if stated(&[tail_a, tail_b, divisor]) && self.tail == Tail::Zero {
+        if stated(&[Register::TailA, Register::TailB, Register::Divisor]) && self.tail == Tail::Zero {
             return wrong(
                 "widths",
                 "a zero tail has no divider; leave out tail_a, tail_b and divisor, or say \

@@ -15,7 +15,7 @@ use crate::rounding::Rounding;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Presented {
-    /// The exponent.
+    /// The exponent, one of the configuration's.
     pub n: f64,
     /// The least x, 0 to 1. The hardware has the next x of its input format at or below it.
     pub least: f64,
@@ -43,9 +43,7 @@ pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
         return wrong(format!("give one n and least for each exponent, in the order {exponents}"));
     }
     match domain.iter().find(|presented| !(0.0..=1.0).contains(&presented.least)) {
-        Some(Presented { n, least }) => {
-            wrong(format!("least of n = {n} is {least}; use a number from 0 to 1"))
-        }
+        Some(Presented { n, least }) => wrong(format!("least of n = {n} is {least}; use a number from 0 to 1")),
         None => Ok(()),
     }
 }
@@ -55,11 +53,7 @@ pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
 ///
 /// # Errors
 /// When the row's polynomial does not answer there: the domain begins below `cut`.
-pub(crate) fn least_bits(
-    config: &Config,
-    exponent: f64,
-    cut: i64,
-) -> Result<Option<i64>, ConfigError> {
+pub(crate) fn least_bits(config: &Config, exponent: f64, cut: i64) -> Result<Option<i64>, ConfigError> {
     let Some(presented) = config.domain.iter().find(|presented| presented.n == exponent) else {
         return Ok(None);
     };

@@ -31,9 +31,7 @@ pub enum ExponentsError {
     #[error("an exponent is missing in {0:?}; write for example 1..=256 or 1,2.5,64")]
     Empty(String),
     /// The piece is not a decimal number.
-    #[error(
-        "{0:?} is not an exponent; write a number such as 64 or 2.5, or a range such as 1..=256"
-    )]
+    #[error("{0:?} is not an exponent; write a number such as 64 or 2.5, or a range such as 1..=256")]
     NotANumber(String),
     /// The number is below 1, above [`MAX_EXPONENT`], infinite or NaN.
     #[error("the exponent {0} is out of range; exponents are numbers from 1 to 1e15")]
@@ -43,9 +41,9 @@ pub enum ExponentsError {
     OpenRange {
         /// The range as written.
         piece: String,
-        /// Its first bound.
+        /// The range's first bound, as written.
         low: String,
-        /// Its last bound.
+        /// The range's last bound, as written.
         high: String,
     },
     /// A bound of a range is not an integer.
@@ -60,15 +58,13 @@ pub enum ExponentsError {
     /// The exponent is below the one before it.
     #[error("the exponent {next} follows {previous}; list the exponents in increasing order")]
     Unsorted {
-        /// The greater exponent.
+        /// The exponent before, which is greater.
         previous: f64,
         /// The smaller exponent after it.
         next: f64,
     },
     /// More than [`MAX_COUNT`] exponents.
-    #[error(
-        "{0:?} brings the list over {MAX_COUNT} exponents; list fewer, or build several tables"
-    )]
+    #[error("{0:?} brings the list over {MAX_COUNT} exponents; list fewer, or build several tables")]
     TooMany(String),
 }
 
@@ -116,7 +112,7 @@ impl Exponents {
         Ok(Self(list))
     }
 
-    /// The exponents, increasing.
+    /// The exponents as numbers of 1 or more, increasing.
     #[must_use]
     pub fn as_slice(&self) -> &[f64] {
         &self.0
@@ -134,21 +130,27 @@ impl Exponents {
         self.0.len()
     }
 
-    /// The least exponent.
+    /// The least exponent, which has ROM address 0.
     #[must_use]
     pub fn first(&self) -> f64 {
         self.0[0]
     }
 
-    /// The greatest exponent.
+    /// The greatest exponent, which has the last ROM address.
     #[must_use]
     pub fn last(&self) -> f64 {
         self.0[self.0.len() - 1]
     }
 
     /// The place of exactly this exponent in the list, counted from 0.
+    #[inline]
     #[must_use]
     pub fn position(&self, exponent: f64) -> Option<usize> {
+        // Where the list counts up by one, which most do.
+        let counted = (exponent - self.first()) as u32 as usize;
+        if self.0.get(counted) == Some(&exponent) {
+            return Some(counted);
+        }
         self.0.binary_search_by(|n| n.total_cmp(&exponent)).ok()
     }
 }
@@ -299,10 +301,7 @@ mod tests {
             ("1..=1e15", "\"1..=1e15\"", "65536 exponents"),
         ] {
             let message = error(text);
-            assert!(
-                message.contains(piece) && message.contains(advice),
-                "{text:?} gave: {message}"
-            );
+            assert!(message.contains(piece) && message.contains(advice), "{text:?} gave: {message}");
         }
         assert!(Exponents::new(vec![1.0; MAX_COUNT + 1]).is_err());
         assert!(Exponents::new(vec![1.0, f64::NAN]).is_err());

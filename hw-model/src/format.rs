@@ -11,6 +11,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::quantise::power_of_two;
+
 /// The widest register, in bits.
 pub const MAX_WIDTH: u32 = 63;
 
@@ -129,7 +131,7 @@ impl QFormat {
         self.integer
     }
 
-    /// Fraction bits.
+    /// The number of fraction bits, which may be more than the width.
     #[must_use]
     pub const fn fraction_bits(self) -> u32 {
         self.fraction
@@ -142,12 +144,14 @@ impl QFormat {
     }
 
     /// The least bits the format holds.
+    #[inline]
     #[must_use]
     pub const fn min_bits(self) -> i64 {
         if self.signed { -(1 << (self.width() - 1)) } else { 0 }
     }
 
     /// The greatest bits the format holds.
+    #[inline]
     #[must_use]
     pub const fn max_bits(self) -> i64 {
         let magnitude = self.width() - self.signed as u32;
@@ -162,11 +166,12 @@ impl QFormat {
 
     /// One last place, as a real value: 2^−fraction.
     #[must_use]
-    pub fn ulp(self) -> f64 {
-        (-f64::from(self.fraction)).exp2()
+    pub const fn ulp(self) -> f64 {
+        power_of_two(-(self.fraction as i32))
     }
 
     /// True when the format holds these bits.
+    #[inline]
     #[must_use]
     pub fn holds(self, bits: i128) -> bool {
         (i128::from(self.min_bits())..=i128::from(self.max_bits())).contains(&bits)
@@ -176,6 +181,7 @@ impl QFormat {
     ///
     /// # Errors
     /// With [`Overflow::Refuse`], when the format does not hold them.
+    #[inline]
     pub fn fit(self, bits: i128, overflow: Overflow) -> Result<i64, DoesNotFit> {
         if self.holds(bits) {
             return Ok(bits as i64);
@@ -280,10 +286,7 @@ mod tests {
         }
         for text in ["Q0.0", "UQ64.0", "UQ1.63", "Q-3.3", "Q2000000000.4000000000"] {
             assert!(
-                matches!(
-                    text.parse::<QFormat>(),
-                    Err(FormatError::Width { .. } | FormatError::Syntax(_))
-                ),
+                matches!(text.parse::<QFormat>(), Err(FormatError::Width { .. } | FormatError::Syntax(_))),
                 "{text}"
             );
         }

@@ -23,27 +23,21 @@ const LONGEST: usize = 100;
 #[non_exhaustive]
 pub enum NameError {
     /// A configuration or a scene.
-    #[error(
-        "use letters, digits, - and _, a letter, digit or _ first; it becomes part of file names"
-    )]
+    #[error("use letters, digits, - and _, a letter, digit or _ first; it becomes part of file names")]
     Label,
     /// Not a plain identifier.
     #[error("use the name of a module: letters, digits and _, not beginning with a digit")]
     Module,
     /// A word of the language.
-    #[error(
-        "{0} is a reserved word of SystemVerilog (IEEE 1800-2017); give your module another name"
-    )]
+    #[error("{0} is a reserved word of SystemVerilog (IEEE 1800-2017); give your module another name")]
     Reserved(String),
     /// Not reserved by the standard, but refused by a simulator.
     #[error("{0} is a word that {1} keeps for itself; give your module another name")]
     Tool(String, &'static str),
     /// A name of the bundle itself.
-    #[error(
-        "{0} is a name of the bundle itself, which is written beside your module; give it another name"
-    )]
+    #[error("{0} is a name of the bundle itself, which is written beside your module; give it another name")]
     Bundle(String),
-    /// Too long.
+    /// The name has more characters than a file system takes well.
     #[error("it has {0} characters; use at most {LONGEST}")]
     Long(usize),
 }
@@ -188,8 +182,7 @@ mod tests {
 
     #[test]
     fn only_plain_identifiers_are_modules() {
-        for good in ["a", "_", "Always", "my_highlight2", "blysk2", "dut", "clk", &"a".repeat(100)]
-        {
+        for good in ["a", "_", "Always", "my_highlight2", "blysk2", "dut", "clk", &"a".repeat(100)] {
             assert_eq!(module(good), Ok(()), "{good}");
         }
         for bad in ["", "1a", "a b", "a$b", "$a", "\\a ", "a\n", "a#", "a-b", "é", "a\"", "`a"] {
@@ -204,8 +197,7 @@ mod tests {
         for good in ["a", "1", "_", "a-b", "compact_12_bit", "always"] {
             assert_eq!(label(good), Ok(()), "{good}");
         }
-        for bad in ["", "-", "-x", "a b", "a/b", ".", "a\n", "a$", "a#", "a\"", "a:b", "é", "a\\"]
-        {
+        for bad in ["", "-", "-x", "a b", "a/b", ".", "a\n", "a$", "a#", "a\"", "a:b", "é", "a\\"] {
             assert_eq!(label(bad), Err(NameError::Label), "{bad:?}");
         }
         assert_eq!(label(&"a".repeat(101)), Err(NameError::Long(101)));

@@ -7,7 +7,7 @@ use crate::config::{Config, ConfigError};
 pub struct Preset {
     /// The name, the same as in the file.
     pub name: &'static str,
-    /// The file's text.
+    /// The text of its file: a configuration as JSON.
     pub json: &'static str,
 }
 

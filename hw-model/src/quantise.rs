@@ -16,9 +16,13 @@ pub enum QuantiseError {
     #[error("{0} cannot be quantised; give a finite number")]
     NotFinite(f64),
     /// The rounded value lies outside the format, and the overflow policy refuses.
-    #[error("{value} does not fit {format}, which holds {} to {}", decimal(format.min_bits(), *format), decimal(format.max_bits(), *format))]
+    #[error(
+        "{value} does not fit {format}, which holds {} to {}",
+        decimal(format.min_bits(), *format),
+        decimal(format.max_bits(), *format)
+    )]
     Overflow {
-        /// The value.
+        /// The value that does not fit.
         value: f64,
         /// The format it was meant for.
         format: QFormat,
@@ -30,16 +34,33 @@ pub enum QuantiseError {
 ///
 /// # Errors
 /// When `value` is not finite, or outside the format under [`Overflow::Refuse`].
-pub fn quantise(
-    value: f64,
-    format: QFormat,
-    rounding: Rounding,
-    overflow: Overflow,
-) -> Result<i64, QuantiseError> {
+#[inline]
+pub fn quantise(value: f64, format: QFormat, rounding: Rounding, overflow: Overflow) -> Result<i64, QuantiseError> {
     let bits = round_scaled(value, format.fraction_bits(), rounding)?;
-    format
-        .fit(bits, overflow)
-        .map_err(|DoesNotFit { .. }| QuantiseError::Overflow { value, format })
+    format.fit(bits, overflow).map_err(|DoesNotFit { .. }| QuantiseError::Overflow { value, format })
+}
+
+/// The bits of the real number `x` in the input format: the nearest that the format has, a tie to even. The one way in
+/// which a real number becomes an x.
+///
+/// What lies outside the format is brought to its ends, as [`Overflow::Saturate`] says, for an x that was computed; or
+/// refused, [`Overflow::Refuse`], for one that somebody wrote.
+///
+/// # Errors
+/// As [`quantise`].
+///
+/// ```
+/// use hw_model::format::Overflow;
+/// use hw_model::quantise::x_bits;
+///
+/// let input = "UQ1.23".parse().unwrap();
+/// assert_eq!(x_bits(0.99, input, Overflow::Refuse), Ok(8_304_722));
+/// assert_eq!(x_bits(-0.2, input, Overflow::Saturate), Ok(0));
+/// assert!(x_bits(2.5, input, Overflow::Refuse).is_err());
+/// ```
+#[inline]
+pub fn x_bits(x: f64, input: QFormat, overflow: Overflow) -> Result<i64, QuantiseError> {
+    quantise(x, input, Rounding::NearestEven, overflow)
 }
 
 /// `value · 2^fraction_bits` rounded to an integer; beyond ±2^64 it is held there, which every
@@ -47,17 +68,20 @@ pub fn quantise(
 ///
 /// # Errors
 /// When `value` is not finite.
-pub fn round_scaled(
-    value: f64,
-    fraction_bits: u32,
-    rounding: Rounding,
-) -> Result<i128, QuantiseError> {
+#[inline]
+pub fn round_scaled(value: f64, fraction_bits: u32, rounding: Rounding) -> Result<i128, QuantiseError> {
     if !value.is_finite() {
         return Err(QuantiseError::NotFinite(value));
     }
-    let limit = 64_f64.exp2();
-    let scaled = (value * f64::from(fraction_bits).exp2()).clamp(-limit, limit);
-    if scaled.abs() >= 62_f64.exp2() {
+    let scaled = value * power_of_two(fraction_bits as i32);
+    // Between this size and twice it the last place of an f64 is 1, so an addition rounds to it, a tie to even.
+    let round = power_of_two(52) + power_of_two(51);
+    if rounding == Rounding::NearestEven && scaled.abs() < power_of_two(51) {
+        return Ok(((scaled + round) - round) as i64 as i128);
+    }
+    let limit = power_of_two(64);
+    let scaled = scaled.clamp(-limit, limit);
+    if scaled.abs() >= power_of_two(62) {
         // A double of this size is an integer, and I64F64 may not hold it.
         return Ok(scaled as i128);
     }
@@ -79,24 +103,24 @@ pub fn round_scaled(
 ///
 /// # Errors
 /// When `value` is not finite, or the result outside the format.
-pub fn quantise_moved(
-    value: f64,
-    format: QFormat,
-    rounding: Rounding,
-    steps: i32,
-) -> Result<i64, QuantiseError> {
+pub fn quantise_moved(value: f64, format: QFormat, rounding: Rounding, steps: i32) -> Result<i64, QuantiseError> {
     let bits = round_scaled(value, format.fraction_bits(), rounding)? + i128::from(steps);
     let moved = value + f64::from(steps) * format.ulp();
-    format
-        .fit(bits, Overflow::Refuse)
-        .map_err(|DoesNotFit { .. }| QuantiseError::Overflow { value: moved, format })
+    format.fit(bits, Overflow::Refuse).map_err(|DoesNotFit { .. }| QuantiseError::Overflow { value: moved, format })
 }
 
 /// The real value of `bits` in `format`, rounded to the nearest `f64` when it has more than 53
 /// significant bits (exact otherwise).
+#[inline]
 #[must_use]
 pub fn real(bits: i64, format: QFormat) -> f64 {
-    exact(bits, format).to_num::<f64>()
+    // Rounded here, where it needs to be; a power of two moves it and loses nothing.
+    bits as f64 * format.ulp()
+}
+
+/// 2^power as an f64, without a call; for powers from −1022 to 1023.
+pub(crate) const fn power_of_two(power: i32) -> f64 {
+    f64::from_bits(((1023 + power) as u64) << 52)
 }
 
 /// The exact decimal value of `bits` in `format`, without trailing zeros: `0.5`, `-1.25`, `3`.
@@ -158,6 +182,12 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn a_real_value_is_the_exact_one_rounded(bits in any::<i64>(), drop in 0_u32..63, fraction in 0_u32..=63) {
+            let (bits, format) = (bits >> 1 >> drop, QFormat::signed(63 - fraction as i32, fraction).unwrap());
+            prop_assert_eq!(real(bits, format), exact(bits, format).to_num::<f64>());
+        }
+
         #[test]
         fn quantising_agrees_with_dropping_bits(mantissa in -(1_i64 << 52)..(1 << 52), drop in 0_u32..50) {
             // mantissa · 2^−drop as a real number, against the integer rounding of the data path

@@ -2,147 +2,93 @@
 //!
 //! A row holds what the pipeline must know of one exponent. Fields that are the same in every row
 //! (c0 = 1 in the centred form, say) are constants of the hardware and take no place in the word. The
-//! others are packed from bit 0 upwards, in the order of [`FieldName::ALL`].
+//! others are packed from bit 0 upwards, in the order of [`Register::in_rom`].
 //!
 //! The address port has one value more than the ROM has words, at least, so that "an exponent
 //! without a ROM word" can be said: every address from the depth up means it.
 
-use std::fmt;
-
 use dashu_int::UBig;
 
+use crate::datapath::front_end::{FrontEnd, Region};
 use crate::exponents::Exponents;
 use crate::format::QFormat;
-
-/// The fields of a row.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum FieldName {
-    /// Coefficient of v³: a, or k3·2^−3e.
-    C3,
-    /// Coefficient of v²: b, or k2·2^−2e.
-    C2,
-    /// Coefficient of v: c, or k1·2^−e.
-    C1,
-    /// Constant coefficient: d, or 1.
-    C0,
-    /// The least x at which the polynomial answers.
-    Cut,
-    /// The places s = 1 − x is moved up to become u.
-    Shift,
-    /// A of the tail x/(A − B·x).
-    TailA,
-    /// B of the tail.
-    TailB,
-    /// Coefficient of v³ of the second segment.
-    C3Outer,
-    /// Coefficient of v² of the second segment.
-    C2Outer,
-    /// Coefficient of v of the second segment.
-    C1Outer,
-    /// Constant coefficient of the second segment.
-    C0Outer,
-    /// The least x of the first segment, from which v counts in the second.
-    HandOver,
-    /// The places `hand_over` − x is moved up to become v in the second segment.
-    ShiftOuter,
-}
-
-impl FieldName {
-    /// Every field, in the order in which they are packed.
-    pub const ALL: [Self; 14] = [
-        Self::C3,
-        Self::C2,
-        Self::C1,
-        Self::C0,
-        Self::Cut,
-        Self::Shift,
-        Self::TailA,
-        Self::TailB,
-        Self::C3Outer,
-        Self::C2Outer,
-        Self::C1Outer,
-        Self::C0Outer,
-        Self::HandOver,
-        Self::ShiftOuter,
-    ];
-    /// c0, c1, c2, c3 of the first segment.
-    pub const COEFFICIENTS: [Self; 4] = [Self::C0, Self::C1, Self::C2, Self::C3];
-    /// The same of the second.
-    pub const OUTER_COEFFICIENTS: [Self; 4] =
-        [Self::C0Outer, Self::C1Outer, Self::C2Outer, Self::C3Outer];
-
-    /// The name used in files and RTL.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::C3 => "c3",
-            Self::C2 => "c2",
-            Self::C1 => "c1",
-            Self::C0 => "c0",
-            Self::Cut => "cut",
-            Self::Shift => "shift",
-            Self::TailA => "tail_a",
-            Self::TailB => "tail_b",
-            Self::C3Outer => "c3_outer",
-            Self::C2Outer => "c2_outer",
-            Self::C1Outer => "c1_outer",
-            Self::C0Outer => "c0_outer",
-            Self::HandOver => "hand_over",
-            Self::ShiftOuter => "shift_outer",
-        }
-    }
-}
-
-impl fmt::Display for FieldName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
+use crate::registers::{MAX_DEGREE, Register};
+use crate::rounding::Lane;
 
 /// The bits of one row, in the formats of the [`Layout`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Row {
-    values: [i64; FieldName::ALL.len()],
+    values: [i64; Register::ROM_COUNT],
 }
 
 impl Row {
     /// A row of zeros.
-    pub(crate) const EMPTY: Self = Self { values: [0; FieldName::ALL.len()] };
+    pub(crate) const EMPTY: Self = Self { values: [0; Register::ROM_COUNT] };
 
-    /// The bits of a field; 0 where the configuration has no such field.
-    #[inline]
+    /// The bits of a field; 0 where the configuration has no such field, and for a register that is in no ROM.
+    #[inline(always)]
     #[must_use]
-    pub const fn get(&self, name: FieldName) -> i64 {
-        self.values[name as usize]
+    pub const fn get(&self, field: Register) -> i64 {
+        let index = field.index();
+        if index < Register::ROM_COUNT { self.values[index] } else { 0 }
     }
 
-    /// Sets the bits of a field.
-    pub const fn set(&mut self, name: FieldName, bits: i64) {
-        self.values[name as usize] = bits;
+    /// Sets the bits of a field; of a register that is in no ROM there are none to set.
+    pub const fn set(&mut self, field: Register, bits: i64) {
+        let index = field.index();
+        if index < Register::ROM_COUNT {
+            self.values[index] = bits;
+        }
     }
 
-    /// The first segment's shift count. It is at most ⌊log2 n⌋, less than 64.
-    #[inline]
+    /// The shift count of a segment. It is at most ⌊log2 n⌋ or 62, less than 64.
+    #[inline(always)]
     #[must_use]
-    pub const fn shift(&self) -> u32 {
-        self.get(FieldName::Shift) as u32
+    pub const fn shift(&self, segment: usize) -> u32 {
+        self.get(Register::Shift(segment)) as u32
     }
 
-    /// The second segment's.
+    /// The row with a segment's coefficients in the places of the first's.
     #[inline]
     #[must_use]
-    pub const fn shift_outer(&self) -> u32 {
-        self.get(FieldName::ShiftOuter) as u32
-    }
-
-    /// The row with the second segment's coefficients in the places of the first's.
-    #[inline]
-    #[must_use]
-    pub fn in_outer(mut self) -> Self {
-        for (to, from) in FieldName::COEFFICIENTS.into_iter().zip(FieldName::OUTER_COEFFICIENTS) {
-            self.set(to, self.get(from));
+    pub fn in_segment(mut self, segment: usize) -> Self {
+        for power in 0..=MAX_DEGREE {
+            self.set(Register::C(0, power), self.get(Register::C(segment, power)));
         }
         self
+    }
+}
+
+/// Where the data path finds the fields of a request's row.
+pub trait Fetched {
+    /// The bits of a field; 0 where the configuration has no such field.
+    fn get(&self, field: Register) -> i64;
+    /// False where the address has no word, and the fields are those of another one.
+    fn known(&self) -> bool;
+    /// The part that answers for x (not clamped) in a row that there is.
+    #[inline(always)]
+    fn region<L: Lane>(&self, front_end: &FrontEnd, x: L) -> Region
+    where
+        Self: Sized,
+    {
+        front_end.region(x, L::from_bits(front_end.cut(self)))
+    }
+}
+
+impl Fetched for Row {
+    #[inline(always)]
+    fn get(&self, field: Register) -> i64 {
+        Self::get(self, field)
+    }
+    #[inline(always)]
+    fn known(&self) -> bool {
+        true
+    }
+}
+
+impl Default for Row {
+    fn default() -> Self {
+        Self::EMPTY
     }
 }
 
@@ -156,7 +102,7 @@ pub enum Place {
     },
     /// The same in every row: a constant of the hardware.
     Constant {
-        /// Its bits.
+        /// The field's value in every row, as bits in its format.
         bits: i64,
     },
 }
@@ -164,11 +110,11 @@ pub enum Place {
 /// One field of the layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Field {
-    /// Which field.
-    pub name: FieldName,
-    /// Its format.
+    /// The name, which says what the field is for.
+    pub name: Register,
+    /// The format of its bits.
     pub format: QFormat,
-    /// Stored or constant.
+    /// Where it lives: in the word, or in the hardware as a constant.
     pub place: Place,
 }
 
@@ -183,11 +129,13 @@ impl Layout {
     /// The layout of these rows: a field that never changes is a constant, unless there is only one
     /// row (every field would be one, and the ROM image empty).
     #[must_use]
-    pub fn of(rows: &[Row], formats: &[(FieldName, QFormat)]) -> Self {
+    pub fn of(rows: &[Row], formats: &[(Register, QFormat)]) -> Self {
         let mut word_width = 0;
+        let mut formats = formats.to_vec();
+        formats.sort_by_key(|(name, _)| name.index());
         let fields = formats
-            .iter()
-            .map(|&(name, format)| {
+            .into_iter()
+            .map(|(name, format)| {
                 let first = rows.first().map_or(0, |row| row.get(name));
                 let constant = rows.len() > 1 && rows.iter().all(|row| row.get(name) == first);
                 let place = if constant {
@@ -211,7 +159,7 @@ impl Layout {
 
     /// One field, where the configuration has it.
     #[must_use]
-    pub fn field(&self, name: FieldName) -> Option<&Field> {
+    pub fn field(&self, name: Register) -> Option<&Field> {
         self.fields.iter().find(|field| field.name == name)
     }
 
@@ -226,9 +174,7 @@ impl Layout {
     pub fn pack(&self, row: &Row) -> UBig {
         self.fields.iter().fold(UBig::ZERO, |word, field| match field.place {
             Place::Constant { .. } => word,
-            Place::Stored { lsb } => {
-                word | (UBig::from(field.format.to_word(row.get(field.name))) << lsb as usize)
-            }
+            Place::Stored { lsb } => word | (UBig::from(field.format.to_word(row.get(field.name))) << lsb as usize),
         })
     }
 
@@ -262,13 +208,13 @@ pub struct Rom {
 impl Rom {
     /// The ROM with one row for each exponent, in order.
     #[must_use]
-    pub fn new(exponents: Exponents, rows: Vec<Row>, formats: &[(FieldName, QFormat)]) -> Self {
+    pub fn new(exponents: Exponents, rows: Vec<Row>, formats: &[(Register, QFormat)]) -> Self {
         debug_assert_eq!(exponents.len(), rows.len());
         let layout = Layout::of(&rows, formats);
         Self { exponents, rows, layout }
     }
 
-    /// Number of words.
+    /// Number of words, which is the number of exponents.
     #[must_use]
     pub const fn depth(&self) -> usize {
         self.rows.len()
@@ -300,6 +246,7 @@ impl Rom {
     }
 
     /// The address of an exponent; for one without a word, the first address past the end.
+    #[inline]
     #[must_use]
     pub fn address_of(&self, exponent: f64) -> u32 {
         self.exponents.position(exponent).unwrap_or(self.depth()) as u32
@@ -323,13 +270,13 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn formats() -> Vec<(FieldName, QFormat)> {
+    fn formats() -> Vec<(Register, QFormat)> {
         let format = |text: &str| text.parse().unwrap();
         vec![
-            (FieldName::C3, format("Q17.18")),
-            (FieldName::C2, format("UQ1.62")),
-            (FieldName::C0, format("UQ1.0")),
-            (FieldName::Cut, format("UQ0.23")),
+            (Register::C(0, 3), format("Q17.18")),
+            (Register::C(0, 2), format("UQ1.62")),
+            (Register::C(0, 0), format("UQ1.0")),
+            (Register::Cut, format("UQ0.23")),
         ]
     }
 
@@ -358,16 +305,16 @@ mod tests {
         let rows: Vec<Row> = (0..4)
             .map(|i| {
                 let mut row = Row::default();
-                row.set(FieldName::C3, i);
-                row.set(FieldName::C0, 1);
+                row.set(Register::C(0, 3), i);
+                row.set(Register::C(0, 0), 1);
                 row
             })
             .collect();
         let layout = Layout::of(&rows, &formats());
         assert_eq!(layout.word_width(), 35);
         let constant = |name| layout.field(name).unwrap().place;
-        assert_eq!(constant(FieldName::C0), Place::Constant { bits: 1 });
-        assert_eq!(constant(FieldName::C3), Place::Stored { lsb: 0 });
+        assert_eq!(constant(Register::C(0, 0)), Place::Constant { bits: 1 });
+        assert_eq!(constant(Register::C(0, 3)), Place::Stored { lsb: 0 });
         assert_eq!(Layout::of(&rows[..1], &formats()).word_width(), 35 + 63 + 1 + 23);
     }
     #[test]
@@ -375,7 +322,7 @@ mod tests {
         let rows: Vec<Row> = (1..4)
             .map(|i| {
                 let mut row = Row::default();
-                row.set(FieldName::C3, i);
+                row.set(Register::C(0, 3), i);
                 row
             })
             .collect();
@@ -383,24 +330,10 @@ mod tests {
         assert_eq!((rom.depth(), rom.address_width(), rom.bits()), (3, 2, 3 * 35));
         assert_eq!([1.0, 2.5, 8.0, 9.0].map(|n| rom.address_of(n)), [0, 1, 2, 3]);
         assert_eq!((rom.row(2), rom.row(3)), (Some(&rows[2]), None));
-        let names: Vec<String> =
-            rom.layout().fields().iter().map(|field| field.name.to_string()).collect();
+        let names: Vec<String> = rom.layout().fields().iter().map(|field| field.name.to_string()).collect();
         assert_eq!(names, ["c3", "c2", "c0", "cut"]);
         // One place more than words where these are a power of two.
         let four = Rom::new("1..=4".parse().unwrap(), vec![Row::default(); 4], &formats());
         assert_eq!(four.address_width(), 3);
-    }
-
-    /// Configurations, columns, RTL and documentation have these names.
-    #[test]
-    fn fields_have_their_names() {
-        let names = |fields: [FieldName; 4]| fields.map(FieldName::name);
-        assert_eq!(names(FieldName::COEFFICIENTS), ["c0", "c1", "c2", "c3"]);
-        let outer = ["c0_outer", "c1_outer", "c2_outer", "c3_outer"];
-        assert_eq!(names(FieldName::OUTER_COEFFICIENTS), outer);
-        let others = [FieldName::Cut, FieldName::HandOver, FieldName::Shift, FieldName::ShiftOuter];
-        assert_eq!(names(others), ["cut", "hand_over", "shift", "shift_outer"]);
-        assert_eq!(format!("{:>7}", FieldName::TailA), " tail_a");
-        assert_eq!(FieldName::TailB.name(), "tail_b");
     }
 }

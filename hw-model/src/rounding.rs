@@ -28,7 +28,7 @@ pub enum Rounding {
     NearestUp,
     /// To the nearest; a tie goes to the even integer.
     NearestEven,
-    /// Towards zero.
+    /// Towards zero: fraction bits are cut off a magnitude.
     TowardZero,
 }
 
@@ -77,9 +77,9 @@ pub trait Lane:
 {
     /// Bits of the machine integer, sign included.
     const BITS: u32;
-    /// Zero.
+    /// The integer 0.
     const ZERO: Self;
-    /// One.
+    /// The integer 1.
     const ONE: Self;
     /// Widens or narrows a register's bits; registers hold at most 63 bits, so `i64` loses none.
     fn from_bits(bits: i64) -> Self;

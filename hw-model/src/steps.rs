@@ -4,80 +4,53 @@
 //! ones together, least of all through lines that round as well. A search over the neighbouring integers
 //! says by how many units of its format a coefficient is moved; the configuration carries it.
 
-use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+use std::fmt;
+
+use serde::de::{MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use crate::config::{Config, ConfigError};
 use crate::fit::Method;
-use crate::rom::FieldName;
+use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, Register};
 
 /// The farthest a coefficient is moved either way. Beyond it is no correction.
 pub const MOST_STEPS: i32 = 1 << 16;
 
-/// The steps of one exponent, in units of the last place of each field.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// The steps of one exponent, in units of the last place of each coefficient.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoefficientSteps {
-    /// The exponent.
+    /// The exponent of the row, one of the configuration's.
     pub n: f64,
-    /// Of c3.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c3: i32,
-    /// Of c2.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c2: i32,
-    /// Of c1.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c1: i32,
-    /// Of c0.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c0: i32,
-    /// Of c3 of the second segment.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c3_outer: i32,
-    /// Of c2 of the second segment.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c2_outer: i32,
-    /// Of c1 of the second segment.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c1_outer: i32,
-    /// Of c0 of the second segment.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub c0_outer: i32,
+    /// Of c0, c1, … of each segment.
+    steps: [Steps; MAX_SEGMENTS],
 }
 
-// serde hands over a reference.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-const fn is_zero(steps: &i32) -> bool {
-    *steps == 0
-}
+/// The steps of c0, c1, … of one segment.
+pub type Steps = [i32; MAX_DEGREE + 1];
 
 impl CoefficientSteps {
     /// No steps for this exponent.
     #[must_use]
-    pub fn none(n: f64) -> Self {
-        Self { n, ..Self::default() }
+    pub const fn none(n: f64) -> Self {
+        Self { n, steps: [[0; MAX_DEGREE + 1]; MAX_SEGMENTS] }
     }
 
-    /// Of c0, c1, c2, c3 of the first segment.
+    /// Of c0, c1, … of a segment; zeros of one that there is not.
     #[must_use]
-    pub const fn first(&self) -> [i32; 4] {
-        [self.c0, self.c1, self.c2, self.c3]
+    pub fn of(&self, segment: usize) -> Steps {
+        self.steps.get(segment).copied().unwrap_or_default()
     }
 
-    /// The same of the second.
+    /// With these steps of c0, c1, … of a segment.
     #[must_use]
-    pub const fn outer(&self) -> [i32; 4] {
-        [self.c0_outer, self.c1_outer, self.c2_outer, self.c3_outer]
-    }
-
-    /// With these steps of c0, c1, c2, c3 of the first segment, or of the second.
-    #[must_use]
-    pub const fn with(self, outer: bool, [c0, c1, c2, c3]: [i32; 4]) -> Self {
-        if outer {
-            Self { c0_outer: c0, c1_outer: c1, c2_outer: c2, c3_outer: c3, ..self }
-        } else {
-            Self { c0, c1, c2, c3, ..self }
+    pub fn with(mut self, segment: usize, steps: Steps) -> Self {
+        if let Some(of_segment) = self.steps.get_mut(segment) {
+            *of_segment = steps;
         }
+        self
     }
 
     /// True where nothing is moved.
@@ -86,11 +59,62 @@ impl CoefficientSteps {
         *self == Self::none(self.n)
     }
 
-    /// Every field that is moved, with its steps.
-    pub fn moved(&self) -> impl Iterator<Item = (FieldName, i32)> {
-        let first = FieldName::COEFFICIENTS.into_iter().zip(self.first());
-        let outer = FieldName::OUTER_COEFFICIENTS.into_iter().zip(self.outer());
-        first.chain(outer).filter(|&(_, steps)| steps != 0)
+    /// Every coefficient that is moved, with its steps, in the order of files: segment by segment, the highest power
+    /// first.
+    pub fn moved(&self) -> impl Iterator<Item = (Register, i32)> {
+        let all = (0..MAX_SEGMENTS).flat_map(|segment| (0..=MAX_DEGREE).rev().map(move |power| (segment, power)));
+        all.map(|(segment, power)| (Register::C(segment, power), self.steps[segment][power]))
+            .filter(|&(_, steps)| steps != 0)
+    }
+}
+
+impl Serialize for CoefficientSteps {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("n", &self.n)?;
+        for (register, steps) in self.moved() {
+            map.serialize_entry(register.name(), &steps)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for CoefficientSteps {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(ByName)
+    }
+}
+
+struct ByName;
+
+impl<'de> Visitor<'de> for ByName {
+    type Value = CoefficientSteps;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("n, and steps by the names of coefficients")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<CoefficientSteps, A::Error> {
+        let mut n = None;
+        let mut steps = CoefficientSteps::none(0.0);
+        let mut seen = BTreeSet::new();
+        while let Some(name) = map.next_key::<Cow<'de, str>>()? {
+            if name == "n" {
+                if n.replace(map.next_value()?).is_some() {
+                    return Err(de::Error::duplicate_field("n"));
+                }
+                continue;
+            }
+            let Some(Register::C(segment, power)) = Register::named(&name) else {
+                return Err(de::Error::unknown_field(&name, &["n", "c3", "c2", "c1", "c0", "c3_outer", "…"]));
+            };
+            if !seen.insert((segment, power)) {
+                return Err(de::Error::duplicate_field(Register::C(segment, power).name()));
+            }
+            steps.steps[segment][power] = map.next_value()?;
+        }
+        steps.n = n.ok_or_else(|| de::Error::missing_field("n"))?;
+        Ok(steps)
     }
 }
 
@@ -113,17 +137,19 @@ pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
         if std::mem::replace(seen, true) {
             return wrong(format!("n = {n} comes twice; say all of its steps at once"));
         }
-        if let Some((field, steps)) =
-            of_row.moved().find(|(_, steps)| steps.unsigned_abs() > MOST_STEPS.unsigned_abs())
+        if let Some((field, steps)) = of_row.moved().find(|(_, steps)| steps.unsigned_abs() > MOST_STEPS.unsigned_abs())
         {
-            return wrong(format!(
-                "n = {n}: {steps} steps of {field} are too many; use -{MOST_STEPS} to {MOST_STEPS}"
-            ));
+            return wrong(format!("n = {n}: {steps} steps of {field} are too many; use -{MOST_STEPS} to {MOST_STEPS}"));
         }
-        if config.segments < 2 && of_row.outer() != [0; 4] {
+        let beyond = |register: &Register| match *register {
+            Register::C(segment, power) => segment >= config.segments || power > config.degree,
+            _ => false,
+        };
+        if let Some((field, _)) = of_row.moved().find(|(field, _)| beyond(field)) {
             return wrong(format!(
-                "n = {n}: there is no second segment; leave out the steps of its fields, or say \
-                 \"segments\": 2"
+                "n = {n}: there is no {field} where \"segments\" is {} and \"degree\" {}; leave its \
+                 steps out",
+                config.segments, config.degree
             ));
         }
     }

@@ -57,9 +57,7 @@ fn a_block_gives_what_the_ranks_give() {
         let mut block = Block::default();
         for address in [0, 1, 2, 63, 255, 256, 300] {
             datapath.evaluate_block(address, &xs, &mut block);
-            for (&x, (&bits, &region)) in
-                xs.iter().zip(block.intensities.iter().zip(&block.regions))
-            {
+            for (&x, (&bits, &region)) in xs.iter().zip(block.intensities.iter().zip(&block.regions)) {
                 let last = datapath.evaluate(address, x);
                 assert_eq!((last.intensity, last.region), (bits, region), "{address} {x}");
             }

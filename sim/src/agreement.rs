@@ -12,17 +12,17 @@ use crate::pipeline::{Inputs, Pipeline, Ranks};
 /// What was compared, and agreed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Agreement {
-    /// Clock cycles.
+    /// Clock cycles that were compared.
     pub cycles: u64,
     /// Registers compared, over all cycles. One that was never loaded is not.
     pub registers: u64,
-    /// Results taken.
+    /// Results that were taken, valid and ready both high.
     pub results: u64,
     /// Cycles in which a result waited.
     pub stalls: u64,
     /// Cycles in which a request could have been taken and there was none.
     pub bubbles: u64,
-    /// Cycles of reset.
+    /// Cycles in which reset was high.
     pub resets: u64,
 }
 
@@ -39,17 +39,17 @@ pub enum Disagreement {
     /// No result was taken in it.
     #[error("no result was taken in the {cycles} cycles of the log: it shows little")]
     NoResult {
-        /// Cycles compared.
+        /// The number of cycles compared.
         cycles: u64,
     },
     /// A register, flag or port differs.
     #[error("cycle {cycle}, line {line}: {name} is {got}, and {wanted} in the model")]
     Differs {
-        /// Counted from 0.
+        /// The cycle, counted from 0.
         cycle: u64,
         /// Line of the log, counted from 1.
         line: u64,
-        /// The name of the register or port.
+        /// The name of the register, flag or port, as in traces.
         name: String,
         /// Its bits in hex, or x.
         got: String,
@@ -67,7 +67,7 @@ pub fn compare(datapath: &Datapath, log: impl BufRead) -> Result<Agreement, Disa
     let probes = log.probes().to_vec();
     let mut pipeline = Pipeline::new(datapath);
     let mut agreement = Agreement::default();
-    // What an RTL simulator shows before the first edge of a reset is nobody's promise.
+    // What an RTL simulator shows before the first edge of a reset is not specified.
     let mut was_reset = false;
     while let Some(line) = log.next_cycle()? {
         let inputs = Inputs {
@@ -109,12 +109,7 @@ struct Compared<'a> {
 }
 
 impl Compared<'_> {
-    fn ranks(
-        &self,
-        datapath: &Datapath,
-        ranks: Ranks<'_>,
-        probes: &[Probe],
-    ) -> Result<u64, Disagreement> {
+    fn ranks(&self, datapath: &Datapath, ranks: Ranks<'_>, probes: &[Probe]) -> Result<u64, Disagreement> {
         let mut words = self.line.words.iter();
         let mut probes = probes.iter().peekable();
         let mut compared = 0;
@@ -127,7 +122,7 @@ impl Compared<'_> {
             compared += 1;
             while let Some(probe) = probes.next_if(|probe| probe.rank == index) {
                 let got = words.next().copied().flatten();
-                let wanted = probe.register.format.to_word((probe.register.bits)(&rank.signals));
+                let wanted = probe.register.format.to_word(probe.register.bits(&rank.signals));
                 if rank.loaded && got != Some(wanted) {
                     return Err(self.differs(probe.name.clone(), got, wanted));
                 }
@@ -147,12 +142,6 @@ impl Compared<'_> {
     fn differs(&self, name: String, got: Option<u64>, wanted: u64) -> Disagreement {
         let hex = |word: u64| format!("0x{word:x}");
         let got = got.map_or_else(|| "x".to_owned(), hex);
-        Disagreement::Differs {
-            cycle: self.cycle,
-            line: self.line.line,
-            name,
-            got,
-            wanted: hex(wanted),
-        }
+        Disagreement::Differs { cycle: self.cycle, line: self.line.line, name, got, wanted: hex(wanted) }
     }
 }

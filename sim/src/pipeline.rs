@@ -23,11 +23,11 @@ pub struct Inputs {
     pub reset: bool,
     /// Address and x are a request.
     pub in_valid: bool,
-    /// ROM address.
+    /// The request's ROM address.
     pub address: u32,
     /// x, bits in the input format.
     pub x: i64,
-    /// Whoever takes the results can take one.
+    /// The receiver of the results can take one.
     pub out_ready: bool,
 }
 
@@ -47,11 +47,11 @@ pub struct Outputs {
 /// One rank of registers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Rank {
-    /// The valid flag.
+    /// True when the rank holds a request.
     pub valid: bool,
     /// False until data is loaded for the first time: hardware shows unknown values there.
     pub loaded: bool,
-    /// The data registers.
+    /// What the data registers of the rank hold.
     pub signals: Signals,
 }
 
@@ -84,7 +84,7 @@ impl<'a> Ranks<'a> {
         }
     }
 
-    /// All of them.
+    /// Every rank, the first one first.
     pub fn iter(self) -> impl Iterator<Item = Rank> + use<'a> {
         (0..self.ranks).map(move |rank| self.rank(rank))
     }
@@ -95,7 +95,7 @@ impl<'a> Ranks<'a> {
         self.rank(self.ranks - 1)
     }
 
-    /// The valid flags, that of the first rank in bit 0.
+    /// The valid flags, the first rank's in bit 0.
     #[must_use]
     pub const fn valid(&self) -> u128 {
         self.places.valid
@@ -171,7 +171,7 @@ const PLACES: usize = 256;
 ///
 /// A cycle moves flags and counters only, and allocates nothing. Results are computed when the first of them comes to
 /// the output, side by side for all requests that have entered by then. What other registers hold is computed when
-/// somebody looks ([`Pipeline::ranks`]).
+/// a caller asks for it ([`Pipeline::ranks`]).
 #[derive(Debug, Clone)]
 pub struct Pipeline<'a> {
     datapath: &'a Datapath,
@@ -182,7 +182,7 @@ pub struct Pipeline<'a> {
     last: u128,
     places_q: Places,
     edge_d: Edge,
-    /// Requests that entered.
+    /// The number of requests that entered so far.
     entered: u64,
     /// The last of them, each in the place of its number, with their results.
     requests: Box<Requests<PLACES, TOGETHER>>,
@@ -217,7 +217,7 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// The data path.
+    /// The data path that is clocked.
     #[must_use]
     pub const fn datapath(&self) -> &'a Datapath {
         self.datapath
@@ -259,14 +259,14 @@ impl<'a> Pipeline<'a> {
         outputs
     }
 
-    /// The rising edge.
+    /// The rising edge of the clock: registers take in what the combinational phase found.
     #[inline(always)]
     pub fn clock(&mut self) {
         self.rise(self.edge_d);
     }
 
-    /// The combinational phase. Rule 2, written out: a rank advances when the output is taken or any rank from it on is empty, that is,
-    /// when it is not above the last empty one.
+    /// The combinational phase. Rule 2, written out: a rank advances when the output is taken or any rank from it on is
+    /// empty, that is, when it is not above the last empty one.
     #[inline(always)]
     fn cycle(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
         let Inputs { reset, address, x, .. } = *inputs;
@@ -347,9 +347,7 @@ impl<'a> Pipeline<'a> {
         if let Some(number) = self.places_q.shown(last) {
             return self.result(number);
         }
-        self.remains
-            .shown(last)
-            .map_or_else(Default::default, |flight| (flight.intensity(), flight.status()))
+        self.remains.shown(last).map_or_else(Default::default, |flight| (flight.intensity(), flight.status()))
     }
 
     /// The flags become 0, and all requests are lost; what ranks show of them stays.

@@ -7,6 +7,9 @@
 
 use std::collections::VecDeque;
 
+use hw_model::datapath::Status;
+use vectors::StimulusLine;
+
 use crate::pipeline::{Inputs, Outputs, Pipeline, Ranks};
 
 /// One cycle of stimulus.
@@ -20,12 +23,20 @@ pub struct StimulusCycle {
     pub reset: bool,
 }
 
+impl From<&StimulusLine> for StimulusCycle {
+    /// What a line of a stimulus file drives.
+    fn from(line: &StimulusLine) -> Self {
+        let request = line.valid.then_some((line.case.address, line.case.x));
+        Self { request, ready: line.ready, reset: line.reset }
+    }
+}
+
 /// Everything visible in one cycle, at the rising edge that ends it.
 #[derive(Debug, Clone, Copy)]
 pub struct Cycle<'a> {
-    /// Counted from 0.
+    /// The number of the cycle, counted from 0.
     pub index: u64,
-    /// What was driven.
+    /// The levels at the input ports.
     pub inputs: &'a Inputs,
     /// What the pipeline showed.
     pub outputs: &'a Outputs,
@@ -36,11 +47,11 @@ pub struct Cycle<'a> {
 /// What a run counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Counts {
-    /// Clock cycles.
+    /// The number of clock cycles.
     pub cycles: u64,
-    /// Requests taken.
+    /// The number of requests that the pipeline took.
     pub requests: u64,
-    /// Results taken.
+    /// The number of results that were taken from it.
     pub results: u64,
     /// Requests and results lost to a reset.
     pub lost_to_reset: u64,
@@ -112,12 +123,7 @@ pub fn run<E>(
         waiting.extend(row.and_then(|row| row.request));
         let inputs = inputs(row, waiting.front().copied());
         let outputs = pipeline.combinational(&inputs);
-        let cycle = Cycle {
-            index: counts.cycles,
-            inputs: &inputs,
-            outputs: &outputs,
-            ranks: pipeline.ranks(),
-        };
+        let cycle = Cycle { index: counts.cycles, inputs: &inputs, outputs: &outputs, ranks: pipeline.ranks() };
         observe(&cycle)?;
         counts.count(&cycle);
         pipeline.clock();
@@ -129,11 +135,7 @@ pub fn run<E>(
 
 /// What the last edge of a run brought: the registers behind it, with nothing presented and ready high. `cycles` went
 /// before; this one has no edge, and does not count.
-pub fn settle<R>(
-    pipeline: &mut Pipeline<'_>,
-    cycles: u64,
-    observe: impl FnOnce(&Cycle<'_>) -> R,
-) -> R {
+pub fn settle<R>(pipeline: &mut Pipeline<'_>, cycles: u64, observe: impl FnOnce(&Cycle<'_>) -> R) -> R {
     let inputs = inputs(None, None);
     let outputs = pipeline.combinational(&inputs);
     let ranks = pipeline.ranks();
@@ -148,5 +150,42 @@ fn inputs(row: Option<StimulusCycle>, request: Option<(u32, i64)>) -> Inputs {
         address,
         x,
         out_ready: row.is_none_or(|row| row.ready),
+    }
+}
+
+/// A result that was taken, with the request that it answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Taken {
+    /// The cycle in which it was taken.
+    pub cycle: u64,
+    /// The request's address and x.
+    pub request: (u32, i64),
+    /// The intensity, bits in the output format.
+    pub intensity: i64,
+    /// The flags.
+    pub status: Status,
+}
+
+/// Finds the request of every result: requests do not overtake each other, and a reset loses those under way.
+#[derive(Debug, Clone, Default)]
+pub struct Results {
+    under_way: VecDeque<(u32, i64)>,
+}
+
+impl Results {
+    /// The result that was taken in this cycle. Every cycle of a run is to be shown, in order.
+    pub fn cycle(&mut self, cycle: &Cycle<'_>) -> Option<Taken> {
+        let Cycle { index, inputs, outputs, .. } = cycle;
+        if inputs.reset {
+            self.under_way.clear();
+            return None;
+        }
+        let taken = outputs.out_valid && inputs.out_ready;
+        let request = if taken { self.under_way.pop_front() } else { None };
+        if inputs.in_valid && outputs.in_ready {
+            self.under_way.push_back((inputs.address, inputs.x));
+        }
+        let (intensity, status) = (outputs.intensity, outputs.status);
+        request.map(|request| Taken { cycle: *index, request, intensity, status })
     }
 }

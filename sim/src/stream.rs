@@ -26,7 +26,7 @@ pub struct Stream<'a> {
     earlier: Option<Flight>,
 }
 
-/// The requests of some cycles: a request for each, though a bubble's is nobody's.
+/// The requests of some cycles, one for each cycle; in a bubble it stands for nothing and has no result.
 #[derive(Debug, Clone)]
 struct Cycles {
     requests: Box<Requests<CYCLES, CYCLES>>,
@@ -58,10 +58,7 @@ impl<'a> Stream<'a> {
     /// The next [`CYCLES`] cycles. `drive` writes the inputs of each: addresses, x, and whether they are a
     /// request.
     #[inline]
-    pub fn run(
-        &mut self,
-        drive: impl FnOnce(&mut [u32; CYCLES], &mut [i64; CYCLES], &mut [bool; CYCLES]),
-    ) {
+    pub fn run(&mut self, drive: impl FnOnce(&mut [u32; CYCLES], &mut [i64; CYCLES], &mut [bool; CYCLES])) {
         if let Some(last) = self.before.last_request(CYCLES - 1) {
             self.earlier = Some(self.flight(&self.before, last));
         }
@@ -88,18 +85,14 @@ impl<'a> Stream<'a> {
     /// The registers of a rank before the edge of a cycle, counted in the last [`run`](Self::run).
     ///
     /// # Panics
-    /// When there are not so many cycles in it.
+    /// When the stream has fewer cycles.
     #[must_use]
     pub fn rank(&self, cycle: usize, rank: usize) -> Rank {
         assert!(cycle < CYCLES);
         // Counted from the first of the cycles before. There are fewer ranks than cycles.
         let entered = CYCLES + cycle - 1 - rank;
         let flight = self.request_upto(entered);
-        let valid = if entered < CYCLES {
-            self.before.valid[entered]
-        } else {
-            self.now.valid[entered - CYCLES]
-        };
+        let valid = if entered < CYCLES { self.before.valid[entered] } else { self.now.valid[entered - CYCLES] };
         let signals = flight.as_ref().map(|flight| self.datapath.shown(rank, flight));
         Rank { valid, loaded: signals.is_some(), signals: signals.unwrap_or_default() }
     }
@@ -109,12 +102,7 @@ impl<'a> Stream<'a> {
     pub fn outputs(&self, cycle: usize) -> Outputs {
         let last = self.rank(cycle, self.ranks - 1);
         let Rank { valid, signals, .. } = last;
-        Outputs {
-            in_ready: true,
-            out_valid: valid,
-            intensity: signals.intensity,
-            status: signals.status,
-        }
+        Outputs { in_ready: true, out_valid: valid, intensity: signals.intensity, status: signals.status }
     }
 
     /// The last request taken up to a cycle.

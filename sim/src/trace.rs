@@ -2,8 +2,9 @@
 
 use std::io::{self, Write};
 
-use hw_model::datapath::{Datapath, Register};
+use hw_model::datapath::{Datapath, RankRegister};
 
+use vectors::output_text::io_error;
 use vectors::rtl::probes::ports;
 
 use crate::run::Cycle;
@@ -12,7 +13,7 @@ use crate::run::Cycle;
 /// register that was never loaded is `x`, as an RTL simulator shows it.
 pub struct TraceWriter<W: Write> {
     csv: csv::Writer<W>,
-    registers: Vec<Vec<Register>>,
+    registers: Vec<Vec<RankRegister>>,
 }
 
 impl<W: Write> TraceWriter<W> {
@@ -21,8 +22,7 @@ impl<W: Write> TraceWriter<W> {
     /// # Errors
     /// When `output` cannot be written.
     pub fn new(output: W, datapath: &Datapath) -> io::Result<Self> {
-        let registers: Vec<_> =
-            (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
+        let registers: Vec<_> = (0..datapath.rank_count()).map(|rank| datapath.registers(rank)).collect();
         let mut csv = csv::Writer::from_writer(output);
         let mut header = vec!["cycle".to_owned()];
         header.extend(ports(datapath).iter().filter_map(|port| port.column.map(str::to_owned)));
@@ -60,7 +60,7 @@ impl<W: Write> TraceWriter<W> {
         for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
             field(&mut self.csv, Some(flag(rank.valid)))?;
             for register in registers {
-                field(&mut self.csv, rank.loaded.then(|| (register.bits)(&rank.signals)))?;
+                field(&mut self.csv, rank.loaded.then(|| register.bits(&rank.signals)))?;
             }
         }
         self.csv.write_record(None::<&[u8]>).map_err(io_error)
@@ -81,13 +81,4 @@ fn field<W: Write>(csv: &mut csv::Writer<W>, bits: Option<i64>) -> io::Result<()
         None => csv.write_field("x"),
     };
     written.map_err(io_error)
-}
-
-/// The I/O error inside an error of writing CSV, with its kind.
-pub(crate) fn io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        // A line of another length than the header: a mistake of the program.
-        kind => io::Error::other(format!("{kind:?}")),
-    }
 }

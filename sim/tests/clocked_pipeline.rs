@@ -80,8 +80,7 @@ impl<'a> Bench<'a> {
 
 /// What one cycle does: present (or not) this request, take results, reset (rarely).
 fn cycles() -> impl Strategy<Value = Vec<(bool, u32, i64, bool, bool)>> {
-    let cycle =
-        (any::<bool>(), 0_u32..10, -256_i64..256, any::<bool>(), prop::bool::weighted(0.02));
+    let cycle = (any::<bool>(), 0_u32..10, -256_i64..256, any::<bool>(), prop::bool::weighted(0.02));
     prop::collection::vec(cycle, 1..200)
 }
 
@@ -123,8 +122,7 @@ fn the_latency_is_the_number_of_ranks_and_a_result_comes_every_cycle() {
         let one = design.config().input.one();
         for cycle in 0..latency + 20 {
             let x = one - cycle as i64;
-            let inputs =
-                Inputs { in_valid: true, address: 7, x, out_ready: true, ..Inputs::default() };
+            let inputs = Inputs { in_valid: true, address: 7, x, out_ready: true, ..Inputs::default() };
             let outputs = pipeline.tick(&inputs);
             assert!(outputs.in_ready);
             assert_eq!(outputs.out_valid, cycle >= latency, "{} cycle {cycle}", preset.name);
@@ -166,12 +164,10 @@ fn an_exponent_without_a_word_is_a_flag_and_zero() {
 fn a_run_counts_what_happened() {
     let design = small();
     let latency = design.datapath().rank_count() as u64;
-    let cycle =
-        |request, ready| Ok::<_, Infallible>(StimulusCycle { request, ready, reset: false });
+    let cycle = |request, ready| Ok::<_, Infallible>(StimulusCycle { request, ready, reset: false });
     let one = Some((0, 128));
     // Three requests with a bubble between the second and the third, then results wait two cycles.
-    let mut stimulus =
-        vec![cycle(one, true), cycle(one, true), cycle(None, true), cycle(one, true)];
+    let mut stimulus = vec![cycle(one, true), cycle(one, true), cycle(None, true), cycle(one, true)];
     for index in 4..latency + 2 {
         stimulus.push(cycle(None, index < latency));
     }
@@ -195,10 +191,7 @@ fn the_example_stimulus_shows_a_stall_a_bubble_and_a_reset() {
     let design = design("paper");
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/examples/stimulus.csv");
     let lines = vectors::read_stimulus(path.as_ref(), design.rom(), design.config().input).unwrap();
-    let stimulus = lines.iter().map(|line| {
-        let request = line.valid.then_some((line.case.address, line.case.x));
-        Ok::<_, Infallible>(StimulusCycle { request, ready: line.ready, reset: line.reset })
-    });
+    let stimulus = lines.iter().map(|line| Ok::<_, Infallible>(StimulusCycle::from(line)));
     let mut flags = Vec::new();
     let counts = run(&mut Pipeline::new(design.datapath()), stimulus, |cycle| {
         if cycle.outputs.out_valid && cycle.inputs.out_ready {

@@ -1,11 +1,11 @@
-//! Logs of answers, as somebody else's simulation would write them: the right ones, to be spoiled.
+//! Logs of answers, as a user's simulation would write them: right answers, which tests then spoil.
 
 use crate::cli::Bench;
 
 /// A log: the names of its columns, and its lines.
 #[derive(Debug, Clone)]
 pub struct Log {
-    /// The names.
+    /// The names of the columns, as in the log's header.
     pub columns: Vec<String>,
     /// Every field of every line.
     pub lines: Vec<Vec<String>>,
@@ -22,11 +22,8 @@ impl Log {
         let table = bench.text(&format!("{directory}/vectors.csv"));
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let header = reader.headers().expect("a header").clone();
-        let wanted = |name: &str| {
-            ["index", "status"].contains(&name) || (name.ends_with("_hex") && name != "x_hex")
-        };
-        let places: Vec<usize> =
-            (0..header.len()).filter(|&place| wanted(&header[place])).collect();
+        let wanted = |name: &str| ["index", "status"].contains(&name) || (name.ends_with("_hex") && name != "x_hex");
+        let places: Vec<usize> = (0..header.len()).filter(|&place| wanted(&header[place])).collect();
         let field = |line: &csv::StringRecord, place: usize| match &header[place] {
             // Its four bits are the only ones that the table has no column of hex for.
             "status" => format!("0x{:x}", line[place].parse::<u8>().expect("a status")),

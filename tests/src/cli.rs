@@ -69,11 +69,11 @@ pub type Tree = BTreeMap<PathBuf, Option<Vec<u8>>>;
 pub struct Run {
     /// The command line, for messages.
     pub command: String,
-    /// The exit status.
+    /// The exit status of the command.
     pub status: i32,
-    /// Standard output.
+    /// What the command wrote to standard output.
     pub stdout: String,
-    /// Standard error.
+    /// What the command wrote to standard error.
     pub stderr: String,
 }
 
@@ -211,12 +211,7 @@ impl Bench {
             assert!(!again, "{piece:?} is said twice: {run:#?}");
         }
         let after = self.tree("");
-        assert!(
-            before == after,
-            "{run:#?}\nbefore {:?}\nafter {:?}",
-            names(&before),
-            names(&after)
-        );
+        assert!(before == after, "{run:#?}\nbefore {:?}\nafter {:?}", names(&before), names(&after));
     }
 }
 

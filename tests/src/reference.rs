@@ -7,9 +7,9 @@ pub const ROWS: usize = 180;
 
 /// One method at one exponent.
 pub struct Row {
-    /// The method's name.
+    /// The name of the method.
     pub method: String,
-    /// The exponent.
+    /// The exponent of the row.
     pub exponent: f64,
     cells: Vec<(String, String)>,
 }
@@ -45,16 +45,9 @@ pub fn rows() -> Vec<Row> {
         .records()
         .map(|record| {
             let record = record.expect("every row has as many cells as the header");
-            let cells: Vec<_> = header
-                .iter()
-                .zip(&record)
-                .map(|(name, text)| (name.to_owned(), text.to_owned()))
-                .collect();
-            Row {
-                method: record[0].to_owned(),
-                exponent: record[1].parse().expect("n is a number"),
-                cells,
-            }
+            let cells: Vec<_> =
+                header.iter().zip(&record).map(|(name, text)| (name.to_owned(), text.to_owned())).collect();
+            Row { method: record[0].to_owned(), exponent: record[1].parse().expect("n is a number"), cells }
         })
         .collect();
     assert_eq!(rows.len(), ROWS, "rows in {}", path.display());

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::waves::Waves;
 
-/// A save file.
+/// A save file of GTKWave, read back.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaveFile {
     /// The dump that it is for.

@@ -1,4 +1,4 @@
-//! Waves read back, whoever wrote them and in whichever format: by `wellen`, which has no code in
+//! Reads waves back, whatever program wrote them and in whichever format: by `wellen`, which has no code in
 //! common with our writers.
 
 use std::collections::{BTreeMap, HashMap};
@@ -22,7 +22,7 @@ pub struct Waves {
 /// A signal of the waves.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signal {
-    /// Its bits.
+    /// The width of the signal, in bits.
     pub width: u32,
     /// What it holds just before each rising edge, which is what a register takes in there: its digits
     /// from the highest bit down, `0`, `1`, `x` or `z`; empty before the first value.
@@ -116,8 +116,7 @@ fn exponent(factor: u32, unit: TimescaleUnit) -> i8 {
 
 /// The instants, as places in the table of times, at which a signal goes from 0 to 1.
 fn rising(clock: &Changes) -> Vec<u32> {
-    let levels: Vec<(u32, String)> =
-        clock.iter_changes().map(|(index, value)| (index, value.to_string())).collect();
+    let levels: Vec<(u32, String)> = clock.iter_changes().map(|(index, value)| (index, value.to_string())).collect();
     let rises = |pair: &&[(u32, String)]| pair[0].1 == "0" && pair[1].1 == "1";
     levels.windows(2).filter(rises).map(|pair| pair[1].0).collect()
 }

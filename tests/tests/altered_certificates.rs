@@ -13,10 +13,8 @@ use hw_model::design::Design;
 use hw_model::quantise::real;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use sim::scene::{Scene, Transfer};
-use sim::specialise::{
-    Asked, Certificate, Display, Proved, Refused, certify, check, demands, derive, reduce, rows,
-};
+use scenes::scene::{Scene, Transfer};
+use scenes::specialise::{Asked, Certificate, Display, Proved, Refused, certify, check, demands, derive, reduce, rows};
 use vectors::checksum::checksum;
 
 const SCENE: &str = r#"{
@@ -54,8 +52,7 @@ impl Bench {
         let rows = rows(&source, &demands(&scene)).unwrap();
         let make = |allowed| {
             let bar = AtomicU64::new(0);
-            let (specialised, found) =
-                reduce(&source, &rows, &scene.name, display, allowed, &bar).unwrap();
+            let (specialised, found) = reduce(&source, &rows, &scene.name, display, allowed, &bar).unwrap();
             let designs = (&source, &specialised);
             Certificate::new(&scene.name, "blysk specialise", display, found, designs).to_json()
         };
@@ -86,9 +83,7 @@ fn sealed(text: &str) -> Option<String> {
 /// The same with the words that the checker would find: who lies about numbers lies about the words for them as well.
 fn sealed_with_words(text: &str) -> Option<String> {
     let sealed_once = sealed(text)?;
-    let Err(Refused::Found { field, said, found }) =
-        check(&sealed_once, Asked::default(), &AtomicU64::new(0))
-    else {
+    let Err(Refused::Found { field, said, found }) = check(&sealed_once, Asked::default(), &AtomicU64::new(0)) else {
         return Some(sealed_once);
     };
     if field != "statement" {
@@ -103,9 +98,7 @@ fn values(text: &str) -> Vec<(usize, usize)> {
     let mut begin = 0;
     for line in text.split_inclusive('\n') {
         let body = line.trim_end().trim_end_matches(',');
-        let value = body
-            .find("\": ")
-            .map_or_else(|| body.len() - body.trim_start().len(), |colon| colon + 3);
+        let value = body.find("\": ").map_or_else(|| body.len() - body.trim_start().len(), |colon| colon + 3);
         if value < body.len() && !body[value..].starts_with(['{', '}', '[', ']']) {
             found.push((begin + value, begin + body.len()));
         }
@@ -156,11 +149,8 @@ fn other(value: &str, random: &mut ChaCha8Rng) -> String {
         9 => (number * 0.5).to_string(),
         10 => "null".to_owned(),
         _ => {
-            let places: Vec<usize> = value
-                .char_indices()
-                .filter(|(_, c)| c.is_ascii_digit())
-                .map(|(at, _)| at)
-                .collect();
+            let places: Vec<usize> =
+                value.char_indices().filter(|(_, c)| c.is_ascii_digit()).map(|(at, _)| at).collect();
             if places.is_empty() {
                 return "7".to_owned();
             }
@@ -223,9 +213,8 @@ fn is_so(certificate: &Certificate) -> Result<(), String> {
     let (source, small) = (design(&certificate.source)?, design(&certificate.specialised)?);
     let (mut codes, mut points) = (0, 0);
     for part in &certificate.parts {
-        let place = |design: &Design| {
-            design.rom().exponents().position(part.n).map(|place| place as u32).ok_or("no word")
-        };
+        let place =
+            |design: &Design| design.rom().exponents().position(part.n).map(|place| place as u32).ok_or("no word");
         let (was, is) = (place(&source)?, place(&small)?);
         let guarded = !certificate.specialised.domain.is_empty();
         let ulp = certificate.source.input.ulp();
@@ -255,10 +244,7 @@ fn is_so(certificate: &Certificate) -> Result<(), String> {
             }
         }
         if (part.differing, part.greatest, part.refused) != (differing, greatest, refused) {
-            return Err(format!(
-                "n = {}: {part:?}, found {differing} {greatest} {refused}",
-                part.n
-            ));
+            return Err(format!("n = {}: {part:?}, found {differing} {greatest} {refused}", part.n));
         }
     }
     let said = match certificate.proved {
@@ -387,9 +373,7 @@ fn a_true_certificate_about_something_else_is_refused() {
     assert!(!bench.accepts(honest, Asked { source: Some(&source), ..Asked::default() }));
     // More codes than the user allows.
     let codes = &bench.certificates[1];
-    let Proved::Codes { greatest, .. } = Certificate::parse(codes).unwrap().proved else {
-        panic!("it is about codes")
-    };
+    let Proved::Codes { greatest, .. } = Certificate::parse(codes).unwrap().proved else { panic!("it is about codes") };
     assert!(greatest > 0, "fewer output bits change codes");
     for (most, accepted) in [(greatest, true), (greatest - 1, false)] {
         assert_eq!(bench.accepts(codes, Asked { codes: Some(most), ..Asked::default() }), accepted);
@@ -403,23 +387,18 @@ fn other_hardware_is_refused_whatever_it_allows() {
     let rows = rows(&bench.source, &demands(&bench.scene)).unwrap();
     let small = derive(&bench.source, &rows, &bench.scene.name).unwrap();
     let display = Display { bits: 8, transfer: Transfer::Srgb };
-    for (from, to) in [
-        ("\"hermite\"", "\"three_point\""),
-        ("\"UQ1.8\"", "\"UQ1.9\""),
-        ("\"q\": 0.5", "\"q\": 0.4"),
-    ] {
+    for (from, to) in [("\"hermite\"", "\"three_point\""), ("\"UQ1.8\"", "\"UQ1.9\""), ("\"q\": 0.5", "\"q\": 0.4")] {
         let mut json = small.config().to_json();
         assert!(json.contains(from), "{from} in {json}");
         json = json.replace(from, to);
         let mut config = Config::from_json(&json).unwrap();
-        config.widths = hw_model::config::StatedWidths::default();
+        config.widths = hw_model::widths::StatedWidths::default();
         let Ok(other) = Design::new(config) else { continue };
         let bar = AtomicU64::new(0);
         let Ok(found) = certify(&bench.source, &other, &rows, display, Some(255), &bar) else {
             continue;
         };
-        let text = Certificate::new(&bench.scene.name, "", display, found, (&bench.source, &other))
-            .to_json();
+        let text = Certificate::new(&bench.scene.name, "", display, found, (&bench.source, &other)).to_json();
         assert!(!bench.accepts(&text, Asked::default()), "{from} became {to}");
     }
 }

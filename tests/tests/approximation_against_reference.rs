@@ -1,8 +1,8 @@
 //! The measured error maxima against 20 digits from 60-digit arithmetic.
 
+use analysis::approximation::{Extent, Peak, approximation};
 use blysk_tests::reference::{self, Row};
 use hw_model::fit::{Fit, Levels, Method, fit};
-use sim::analysis::approximation::{Peak, Region, approximation};
 
 /// Relative: ten significant digits are promised.
 const DIGITS: f64 = 1e-10;
@@ -26,8 +26,7 @@ fn compare(row: &Row, column: &str, found: Peak, complaints: &mut Vec<String>) -
     let error = (found.error - wanted).abs();
     if error.is_nan() || error > (DIGITS * wanted).max(NOISE) {
         let (method, n) = (&row.method, row.exponent);
-        complaints
-            .push(format!("{method} n = {n}: {column} = {:e}, wanted {wanted:e}", found.error));
+        complaints.push(format!("{method} n = {n}: {column} = {:e}, wanted {wanted:e}", found.error));
     }
     1
 }
@@ -39,13 +38,13 @@ fn every_maximum_has_ten_digits() {
     for row in reference::rows() {
         let fit = fit_of(&row);
         let measure = |region| approximation(&fit, row.exponent, region);
-        let epicentre = measure(Region::epicentre(&fit));
+        let epicentre = measure(Extent::epicentre(&fit));
         let relative = epicentre.relative.expect("the epicentre stays above x = 0");
         for (column, found) in [
             ("epi_abs", epicentre.absolute),
             ("epi_rel", relative),
-            ("tail_abs", measure(Region::tail(&fit)).absolute),
-            ("full_abs", measure(Region::WHOLE).absolute),
+            ("tail_abs", measure(Extent::tail(&fit)).absolute),
+            ("full_abs", measure(Extent::WHOLE).absolute),
         ] {
             compared += compare(&row, column, found, &mut complaints);
         }
@@ -63,7 +62,7 @@ fn every_maximum_is_where_it_should_be() {
             continue;
         };
         let fit = fit_of(&row);
-        let found = approximation(&fit, row.exponent, Region::epicentre(&fit)).absolute;
+        let found = approximation(&fit, row.exponent, Extent::epicentre(&fit)).absolute;
         let (s, error) = (1.0 - x, (found.s / (1.0 - x) - 1.0).abs());
         let (method, n) = (&row.method, row.exponent);
         assert!(error <= PLACE, "{method} n = {n}: at s = {:e}, wanted {s:e}", found.s);
@@ -73,12 +72,12 @@ fn every_maximum_is_where_it_should_be() {
     assert_eq!(compared, 139, "places compared");
 }
 
-/// The two figures everyone quotes, as they are printed.
+/// The two figures that the paper is quoted for, as they are printed.
 #[test]
 fn the_printed_figures() {
     for (n, printed) in [(64.0, "0.506510790"), (256.0, "0.542237003")] {
         let fit = fit(Method::Hermite, n, Levels::default()).unwrap();
-        let found = approximation(&fit, n, Region::epicentre(&fit)).absolute;
+        let found = approximation(&fit, n, Extent::epicentre(&fit)).absolute;
         assert_eq!(format!("{:.9}", 100.0 * found.error), printed, "n = {n}");
     }
 }

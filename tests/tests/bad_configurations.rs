@@ -161,10 +161,7 @@ fn fields_that_cannot_be_used_are_named() {
         (json!({"error_budget_ulp": -1.0}), vec!["`error_budget_ulp`", "above 0"]),
         (json!({"error_budget_ulp": 1e7}), vec!["`error_budget_ulp`", "1e6"]),
         (json!({"form": "power", "widths": {"u": "UQ1.8"}}), vec!["`widths.u`", "centred"]),
-        (
-            json!({"tail": "zero", "widths": {"divisor": "UQ10.10"}}),
-            vec!["`widths`", "no divider", "rational"],
-        ),
+        (json!({"tail": "zero", "widths": {"divisor": "UQ10.10"}}), vec!["`widths`", "no divider", "rational"]),
         (
             json!({"method": "schlick", "tail": "rational", "widths": {"t1": "UQ1.8"}}),
             vec!["`widths`", "no polynomial", "t1"],
@@ -202,10 +199,7 @@ fn a_budget_that_cannot_be_kept_says_what_is_reached_where() {
             json!({"rounding": "floor", "error_budget_ulp": 1.0}),
             vec!["budget of 1 ulp cannot be kept", "n = ", "round to nearest"],
         ),
-        (
-            json!({"error_budget_ulp": 0.4}),
-            vec!["budget of 0.4 ulp cannot be kept", "n = ", "raise error_budget_ulp"],
-        ),
+        (json!({"error_budget_ulp": 0.4}), vec!["budget of 0.4 ulp cannot be kept", "n = ", "raise error_budget_ulp"]),
         (
             json!({"widths": {"t2": "UQ1.7"}, "error_budget_ulp": 0.9}),
             vec!["cannot be kept", "stated widths", "n = ", "allow wider formats"],
@@ -263,10 +257,7 @@ fn what_needs_more_than_63_bits_is_refused() {
             json!({"method": "schlick", "exponents": "1", "output": "UQ1.62", "error_budget_ulp": 1e6}),
             vec!["register digits", "n = 1", "64 bits"],
         ),
-        (
-            json!({"q": 1e-30, "g": 1e-40, "exponents": "100", "error_budget_ulp": 1e6}),
-            vec!["n = 100", "bits"],
-        ),
+        (json!({"q": 1e-30, "g": 1e-40, "exponents": "100", "error_budget_ulp": 1e6}), vec!["n = 100", "bits"]),
     ] {
         refused(&changes, &words);
     }
@@ -417,8 +408,8 @@ const FIELDS: [&str; 25] = [
 
 /// Sets or removes a field; the names after `error_budget_ulp` live in `widths`.
 fn mutate(config: &mut Value, field: &str, value: Value, remove: bool) {
-    let widths = !matches!(field, "surprise")
-        && FIELDS.iter().position(|name| *name == field).is_some_and(|place| place >= 14);
+    let widths =
+        !matches!(field, "surprise") && FIELDS.iter().position(|name| *name == field).is_some_and(|place| place >= 14);
     let Some(mut fields) = config.as_object_mut() else { return };
     if widths {
         let nested = fields.entry("widths").or_insert_with(|| json!({}));
@@ -498,8 +489,7 @@ fn every_combination_of_small_choices_is_hardware_or_a_named_refusal() {
                                     refusals += 1;
                                     let message = refusal.to_string();
                                     assert!(
-                                        message.contains("`tail`")
-                                            || message.contains("ulp cannot be kept"),
+                                        message.contains("`tail`") || message.contains("ulp cannot be kept"),
                                         "{message}"
                                     );
                                 }

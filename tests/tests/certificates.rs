@@ -2,20 +2,22 @@
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::approximation::{self, approximation};
+use analysis::hardware_claim::certify_hardware;
 use blysk_tests::cli::SMALL;
 use blysk_tests::reference;
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::check;
+use bounds::certify::claim::{Claims, Enclosure, Finding, Stretch};
+use bounds::certify::curve::{Curve, Logs, reciprocal};
+use bounds::certify::fault::Fault;
+use bounds::certify::hardware::{HardwareClaim, Worst};
+use bounds::certify::search::{claim_every_exponent, claim_exponent};
+use bounds::interval::{Interval, Slopes};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::fit::{Levels, Method, fit};
 use proptest::prelude::*;
-use sim::analysis::approximation::{self, approximation};
-use sim::certify::certificate::{Certificate, Claim};
-use sim::certify::check::{Fault, check};
-use sim::certify::claim::{Claims, Enclosure, Finding, Region};
-use sim::certify::curve::{Curve, Logs, reciprocal};
-use sim::certify::hardware::{HardwareClaim, Worst, certify_hardware};
-use sim::certify::search::{claim_every_exponent, claim_exponent};
-use sim::interval::{Interval, Slopes};
 
 fn exponents() -> impl Strategy<Value = f64> {
     prop_oneof![(0.0_f64..12.0).prop_map(|e| 10.0_f64.powf(e)), (1_u32..=1024).prop_map(f64::from)]
@@ -34,7 +36,7 @@ proptest! {
     fn coefficients_are_those_of_the_fit(n in exponents(), levels in levels()) {
         for method in [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic] {
             let logs = Logs::new(levels);
-            let curve = Curve::new(method, Region::Epicentre, &logs, reciprocal(n));
+            let curve = Curve::new(method, Stretch::Epicentre, &logs, reciprocal(n));
             let fitted = fit(method, n, levels).unwrap().cubic().unwrap().centred;
             let own = curve.centred().unwrap();
             let size = [n, n * n, n * n * n];
@@ -55,7 +57,7 @@ proptest! {
         // `minimax` has no formula in h.
         prop_assume!(method != Method::Minimax);
         let logs = Logs::new(Levels::default());
-        let region = *Region::of(method).last().unwrap();
+        let region = *Stretch::of(method).last().unwrap();
         let exactly = Interval::exactly;
         let at = |h: f64, sigma: f64| {
             Curve::new(method, region, &logs, exactly(h)).value(exactly(sigma))
@@ -77,10 +79,10 @@ proptest! {
     fn enclosures_hold_the_measured_maxima(which in 0_usize..8, n in exponents(), levels in levels()) {
         let method = Method::ALL[which];
         let fitted = fit(method, n, levels).unwrap();
-        for &region in Region::of(method) {
+        for &region in Stretch::of(method) {
             let measured = approximation(&fitted, n, match region {
-                Region::Epicentre => approximation::Region::epicentre(&fitted),
-                Region::Tail => approximation::Region::tail(&fitted),
+                Stretch::Epicentre => approximation::Extent::epicentre(&fitted),
+                Stretch::Tail => approximation::Extent::tail(&fitted),
             });
             let claim = claim_exponent(method, n, region, levels).unwrap();
             let within = |found: &Finding, error: f64| {
@@ -101,7 +103,7 @@ fn integer_exponents_are_enclosed_to_a_millionth() {
     let levels = Levels::default();
     let mut claims = Vec::new();
     for method in Method::ALL {
-        for &region in Region::of(method) {
+        for &region in Stretch::of(method) {
             for n in (1..=64).chain([255, 256, 257, 1000, 1023, 1024]).map(f64::from) {
                 claims.push(claim_exponent(method, n, region, levels).unwrap());
             }
@@ -128,9 +130,9 @@ fn enclosures_hold_the_table() {
     let mut compared = 0;
     for row in reference::rows() {
         let method: Method = row.method.parse().unwrap();
-        for (region, column) in [(Region::Epicentre, "epi_abs"), (Region::Tail, "tail_abs")] {
+        for (region, column) in [(Stretch::Epicentre, "epi_abs"), (Stretch::Tail, "tail_abs")] {
             let Some(wanted) = row.value(column) else { continue };
-            if !Region::of(method).contains(&region) {
+            if !Stretch::of(method).contains(&region) {
                 continue;
             }
             let claim = claim_exponent(method, row.exponent, region, Levels::default()).unwrap();
@@ -149,13 +151,10 @@ fn enclosures_hold_the_table() {
 
 fn every(method: Method) -> Claim {
     let levels = Levels::default();
-    Claim::EveryExponent(Claims {
-        levels,
-        claims: vec![claim_every_exponent(method, levels).unwrap()],
-    })
+    Claim::EveryExponent(Claims { levels, claims: vec![claim_every_exponent(method, levels).unwrap()] })
 }
 
-fn single(method: Method, n: f64, region: Region) -> Claim {
+fn single(method: Method, n: f64, region: Stretch) -> Claim {
     let levels = Levels::default();
     let claims = vec![claim_exponent(method, n, region, levels).unwrap()];
     Claim::Exponents(Claims { levels, claims })
@@ -200,17 +199,14 @@ fn sealed_forgeries_are_refused_for_their_content() {
         (|e| e.partition.truncate(e.partition.len() - 1), "absolute.partition"),
         (|e| e.partition.push('0'), "absolute.partition"),
         (|e| e.partition.replace_range(0..1, "3"), "absolute.partition"),
-        (
-            |e| e.witness.h = if e.witness.h.is_some() { None } else { Some(0.5) },
-            "absolute.witness.h",
-        ),
+        (|e| e.witness.h = if e.witness.h.is_some() { None } else { Some(0.5) }, "absolute.witness.h"),
     ];
     for claim in [
         every(Method::Hermite),
         every(Method::ThreePoint),
-        single(Method::Hermite, 4.0, Region::Epicentre),
-        single(Method::Tangent, 2.5, Region::Epicentre),
-        single(Method::Rational, 64.0, Region::Tail),
+        single(Method::Hermite, 4.0, Stretch::Epicentre),
+        single(Method::Tangent, 2.5, Stretch::Epicentre),
+        single(Method::Rational, 64.0, Stretch::Tail),
     ] {
         assert_eq!(fault(claim.clone()), None);
         for (index, (forge, field)) in forgeries.iter().enumerate() {
@@ -224,19 +220,19 @@ fn sealed_forgeries_are_refused_for_their_content() {
 
 #[test]
 fn another_subject_or_region_is_refused() {
-    let tail = single(Method::Composite, 8.0, Region::Tail);
+    let tail = single(Method::Composite, 8.0, Stretch::Tail);
     for far in [None, Some(0.5), Some(1.0), Some(f64::MAX)] {
         let mut forged = tail.clone();
         enclosure(&mut forged).far = far;
         let found = fault(forged).unwrap_or_else(|| panic!("far = {far:?} is accepted"));
         assert!(found.field.contains("absolute."), "{found}");
     }
-    let good = single(Method::Hermite, 4.0, Region::Epicentre);
+    let good = single(Method::Hermite, 4.0, Stretch::Epicentre);
     let mut forged = good.clone();
     enclosure(&mut forged).far = Some(1.0);
     assert!(fault(forged).unwrap().field.ends_with("absolute.far"));
     let Claim::Exponents(claims) = &good else { panic!("it is about exponents") };
-    let refused = |alter: fn(&mut sim::certify::claim::ExponentClaim), field: &str| {
+    let refused = |alter: fn(&mut bounds::certify::claim::ExponentClaim), field: &str| {
         let mut forged = claims.clone();
         alter(&mut forged.claims[0]);
         let found = fault(Claim::Exponents(forged)).expect("it is a forgery");
@@ -245,7 +241,7 @@ fn another_subject_or_region_is_refused() {
     refused(|claim| claim.n = 5.0, "absolute.");
     refused(|claim| claim.n = 0.5, "n");
     refused(|claim| claim.method = Method::Quadratic, "absolute.");
-    refused(|claim| claim.region = Region::Tail, "region");
+    refused(|claim| claim.region = Stretch::Tail, "region");
     refused(|claim| claim.absolute = Finding::Exact, "absolute");
     refused(|claim| claim.relative = Some(Finding::Exact), "relative");
     refused(|claim| claim.relative = None, "relative");

@@ -23,10 +23,7 @@ fn the_page_is_what_its_command_makes() {
 fn one_claim_is_shown_with_its_numbers() {
     let bench = bench!();
     let shown = bench.good("claims --claim relative-error");
-    assert!(
-        shown.contains("holds for n <= 114") && shown.contains("fails from   n = 115"),
-        "{shown}"
-    );
+    assert!(shown.contains("holds for n <= 114") && shown.contains("fails from   n = 115"), "{shown}");
     let numbers = csv_rows(&bench.good("claims --claim relative-error --format csv"));
     let of = |column: &str| [0, 1].map(|row: usize| number(&numbers[row], column));
     assert_eq!(of("n"), [114.0, 115.0]);
@@ -45,10 +42,7 @@ fn every_format_has_every_claim() {
     assert!(rows.len() > 15 && rows.len() == json.len());
     for (place, (row, object)) in rows.iter().zip(&json).enumerate() {
         let (claim, verdict) = (&row["claim"], &row["verdict"]);
-        assert_eq!(
-            (object["id"].as_str(), object["verdict"].as_str()),
-            (Some(claim.as_str()), Some(verdict.as_str()))
-        );
+        assert_eq!((object["id"].as_str(), object["verdict"].as_str()), (Some(claim.as_str()), Some(verdict.as_str())));
         assert!(table.contains(claim), "{claim}");
         // The command of a row shows that row; some of them, because each computes every claim.
         if place % 5 != 0 {
@@ -63,8 +57,7 @@ fn every_format_has_every_claim() {
 fn files_are_written_together() {
     let bench = bench!();
     let _said = bench.good("claims --out made");
-    let names: Vec<String> =
-        bench.tree("made").into_keys().map(|name| name.display().to_string()).collect();
+    let names: Vec<String> = bench.tree("made").into_keys().map(|name| name.display().to_string()).collect();
     assert_eq!(names, ["claims.csv", "claims.json", "claims.md", "claims.sha256"]);
 }
 

@@ -18,8 +18,7 @@ impl Written<'_> {
             let held = self.ranks[index];
             let before = index.checked_sub(1).map(|before| self.ranks[before]);
             let advances = !held.valid || ready;
-            let offered =
-                before.map_or(inputs.in_valid && !inputs.reset, |before: Rank| before.valid);
+            let offered = before.map_or(inputs.in_valid && !inputs.reset, |before: Rank| before.valid);
             let rank = &mut self.ranks[index];
             if advances && offered {
                 rank.loaded = true;
@@ -47,7 +46,7 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
         for cycle in 0..1000 {
             if source.once_in(30) {
                 (request_in, ready_in) = (source.integer(1, 6), source.integer(1, 6));
-                // Registers are computed when somebody looks; also after many cycles without.
+                // Registers are computed when they are asked for; also after many cycles without a question.
                 looks_in = source.one_of(&[1, 1, 60]);
             }
             let (address, x) = source.one_of(&requests);
@@ -70,8 +69,7 @@ fn the_clocked_simulator_shows_every_register_as_the_rules_say() {
             if !source.once_in(looks_in) {
                 continue;
             }
-            for (index, (shown, wanted)) in pipeline.ranks().iter().zip(&written.ranks).enumerate()
-            {
+            for (index, (shown, wanted)) in pipeline.ranks().iter().zip(&written.ranks).enumerate() {
                 let name = &design.config().name;
                 assert_eq!(shown, *wanted, "{name}, cycle {cycle}, rank {index}");
                 compared += 1;

@@ -11,7 +11,7 @@ use blysk_tests::rtl::mutants::{Bench, netlist};
 use blysk_tests::rtl::simulators;
 use hw_model::config::Config;
 use hw_model::design::Design;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 use vectors::rtl::probes;
 use vectors::{Bundle, Strategy};
 
@@ -93,8 +93,7 @@ fn judgements_are_those_of_every_input() {
         .map(|(index, outcome)| outcome.killed_by.is_none() || index % every == 0)
         .collect();
     let directory = &small.bench.directory;
-    let judged =
-        netlist::judge(directory, DESIGN.datapath(), &small.mutations, &asked, SECONDS).unwrap();
+    let judged = netlist::judge(directory, DESIGN.datapath(), &small.mutations, &asked, SECONDS).unwrap();
     let (mut equivalent, mut visible) = (0, 0);
     for (outcome, judgement) in outcomes.iter().zip(judged) {
         let killed = outcome.killed_by.is_some();
@@ -113,10 +112,7 @@ fn judgements_are_those_of_every_input() {
     }
     // How many stay open is a matter of the machine's speed; that there are both kinds is none.
     let open = asked.iter().filter(|asked| **asked).count() - equivalent - visible;
-    assert!(
-        equivalent >= 1 && visible >= 10,
-        "{equivalent} equivalent, {visible} visible, {open} open"
-    );
+    assert!(equivalent >= 1 && visible >= 10, "{equivalent} equivalent, {visible} visible, {open} open");
 }
 
 #[test]
@@ -124,7 +120,7 @@ fn a_bit_that_is_the_same_in_every_row_may_be_stuck_there_and_nowhere_else() {
     let small = Small::of("proofs-constant-bit", &ALIKE);
     let prover = small.prover(netlist::RIGHT).unwrap();
     let rows = ALIKE.rom().rows();
-    let values = || rows.iter().map(|row| row.get(FieldName::TailA));
+    let values = || rows.iter().map(|row| row.get(Register::TailA));
     let always = values().fold(!0, |all, bits| all & bits);
     let ever = values().fold(0, |any, bits| any | bits);
     let width = ALIKE.datapath().formats().tail.unwrap().a.width() as usize;
@@ -176,7 +172,7 @@ fn a_netlist_that_mixes_requests_or_parts_is_refused() {
     let graph = small.prover(netlist::RIGHT).unwrap();
     let graph = graph.graph();
     let region = probes::probes(DESIGN.datapath());
-    let region = region.iter().rfind(|probe| probe.register.name == "region").unwrap();
+    let region = region.iter().rfind(|probe| probe.register.register == Register::Region).unwrap();
     // The quotient is shown in the region zero too.
     let shown = mutation(graph, "const1", &region.path, 1, "Q");
     // A rank is loaded where it should hold.
@@ -196,7 +192,7 @@ fn every_request_keeps_to_the_facts() {
     let datapath = DESIGN.datapath();
     let facts = facts::facts(datapath);
     let names: Vec<&str> = facts.iter().map(|fact| fact.path.as_str()).collect();
-    assert!(names.contains(&"polynomial.stage3.t_q") && facts.len() > 8, "{names:?}");
+    assert!(names.contains(&"polynomial.stage[3].multiply_add.t_q") && facts.len() > 8, "{names:?}");
     let probes = probes::probes(datapath);
     let input = datapath.formats().input;
     for address in 0..16 {
@@ -204,7 +200,7 @@ fn every_request_keeps_to_the_facts() {
             let passage = datapath.passage(address, x);
             for fact in &facts {
                 let probe = probes.iter().find(|probe| probe.path == fact.path).unwrap();
-                let held = (probe.register.bits)(&passage[probe.rank]);
+                let held = probe.register.bits(&passage[probe.rank]);
                 assert!((fact.least..=fact.greatest).contains(&held), "{fact:?}: {held}");
             }
         }

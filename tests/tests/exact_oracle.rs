@@ -22,12 +22,10 @@ fn power(x: &Exact, exponent: u32) -> Exact {
 fn is_nearest(value: f64, exact: &Exact) -> bool {
     let distance = |candidate: f64| Exact::of_f64(candidate).distance(exact);
     let own = distance(value);
-    [value.next_up(), value.next_down()].into_iter().all(|neighbour| {
-        match own.compare(&distance(neighbour)) {
-            Ordering::Less => true,
-            Ordering::Equal => value.to_bits().is_multiple_of(2),
-            Ordering::Greater => false,
-        }
+    [value.next_up(), value.next_down()].into_iter().all(|neighbour| match own.compare(&distance(neighbour)) {
+        Ordering::Less => true,
+        Ordering::Equal => value.to_bits().is_multiple_of(2),
+        Ordering::Greater => false,
     })
 }
 
@@ -115,8 +113,7 @@ fn the_oracle_is_the_power() {
 #[test]
 fn the_oracle_refuses_what_it_cannot_hold() {
     for (k, fraction, exponent) in [(2, 0, 1), (5, 2, 1), (u64::MAX, 63, 1), (0, 64, 1)] {
-        let refusal =
-            ExactPower::new(k, fraction, exponent).expect_err("outside the unit interval");
+        let refusal = ExactPower::new(k, fraction, exponent).expect_err("outside the unit interval");
         assert!(matches!(refusal, ExactError::Input { .. }), "{refusal}");
     }
     let refusal = ExactPower::new(1, 63, u32::MAX).expect_err("too many bits");

@@ -26,9 +26,9 @@ fn short(name: &str) {
     let mut accepted = 0;
     for run in 0..corpus + ALTERED {
         let input = campaign.input();
-        let found = campaign.run(&input).unwrap_or_else(|finding| {
-            panic!("{name}, run {run}: {finding:?}\n{}", String::from_utf8_lossy(&input))
-        });
+        let found = campaign
+            .run(&input)
+            .unwrap_or_else(|finding| panic!("{name}, run {run}: {finding:?}\n{}", String::from_utf8_lossy(&input)));
         accepted += usize::from(run < corpus && found == Outcome::Accepted);
     }
     // A corpus of which nothing is read would try the first line of a reader only, and a mutation that spoils

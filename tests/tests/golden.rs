@@ -1,6 +1,6 @@
 //! The files in `tests/golden/`, made again by the commands in its README and compared byte for byte.
 //!
-//! They catch what no other test looks for: a change nobody meant. After one that was meant, rewrite
+//! They catch what no other test looks for: a change that was not meant. After one that was meant, rewrite
 //! them with `BLYSK_BLESS=1 cargo test -p blysk-tests --test golden` and read the difference.
 
 use std::fs;
@@ -28,9 +28,7 @@ fn commands() -> Vec<Command> {
     let lines = readme.lines().filter_map(|line| line.strip_prefix("    blysk "));
     lines
         .map(|line| match line.split_once(" > ") {
-            Some((arguments, file)) => {
-                Command { arguments: arguments.to_owned(), redirected: Some(file.to_owned()) }
-            }
+            Some((arguments, file)) => Command { arguments: arguments.to_owned(), redirected: Some(file.to_owned()) },
             None => Command { arguments: line.to_owned(), redirected: None },
         })
         .collect()
@@ -54,8 +52,7 @@ fn the_golden_files_are_what_their_commands_make() {
         }
     }
     // Of a report only the table: the pictures have tests of their own, and are large.
-    for picture in bench.tree("report").into_keys().filter(|name| !name.ends_with("error_vs_n.csv"))
-    {
+    for picture in bench.tree("report").into_keys().filter(|name| !name.ends_with("error_vs_n.csv")) {
         fs::remove_file(bench.path("report").join(picture)).expect("ours");
     }
 
@@ -93,8 +90,7 @@ fn bless(made: &blysk_tests::cli::Tree) {
 
 /// The first line in which two files differ.
 fn difference(name: &Path, made: Option<&[u8]>, kept: Option<&[u8]>) -> String {
-    let text =
-        |bytes: Option<&[u8]>| String::from_utf8_lossy(bytes.unwrap_or_default()).into_owned();
+    let text = |bytes: Option<&[u8]>| String::from_utf8_lossy(bytes.unwrap_or_default()).into_owned();
     let (made, kept) = (text(made), text(kept));
     let line = made.lines().zip(kept.lines()).take_while(|(made, kept)| made == kept).count();
     format!(

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use blysk_tests::bench;
 use blysk_tests::cli::{Tree, tree};
 
-const AGAIN: &str =
-    "`make docs` writes docs/hardware/ again; read the difference before you keep it";
+const AGAIN: &str = "`make docs` writes docs/hardware/ again; read the difference before you keep it";
 
 fn kept() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/hardware")
@@ -21,10 +20,7 @@ fn names(tree: &Tree) -> Vec<&PathBuf> {
 /// Where the links and pictures of a page lead, headings of the page apart.
 fn links(page: &str) -> Vec<&str> {
     let targets = page.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-    targets
-        .map(|link| link.split('#').next().unwrap_or(link))
-        .filter(|link| !link.is_empty())
-        .collect()
+    targets.map(|link| link.split('#').next().unwrap_or(link)).filter(|link| !link.is_empty()).collect()
 }
 
 #[test]
@@ -34,26 +30,18 @@ fn the_reference_is_what_its_command_makes() {
     let (made, kept) = (bench.tree("made"), tree(&kept()));
     assert_eq!(names(&made), names(&kept), "files made, files kept: {AGAIN}");
     for (name, made) in &made {
-        let text = |file: &Option<Vec<u8>>| {
-            String::from_utf8_lossy(file.as_deref().unwrap_or_default()).into_owned()
-        };
+        let text = |file: &Option<Vec<u8>>| String::from_utf8_lossy(file.as_deref().unwrap_or_default()).into_owned();
         let (made, kept) = (text(made), text(&kept[name]));
         let same = made.lines().zip(kept.lines()).take_while(|(made, kept)| made == kept).count();
         let (wanted, found) = (made.lines().nth(same), kept.lines().nth(same));
-        assert!(
-            made == kept,
-            "{}, line {}:\n  made {wanted:?}\n  kept {found:?}\n{AGAIN}",
-            name.display(),
-            same + 1
-        );
+        assert!(made == kept, "{}, line {}:\n  made {wanted:?}\n  kept {found:?}\n{AGAIN}", name.display(), same + 1);
     }
 }
 
 #[test]
 fn its_links_lead_somewhere() {
     let mut followed = 0;
-    for name in tree(&kept()).into_keys().filter(|name| name.extension().is_some_and(|e| e == "md"))
-    {
+    for name in tree(&kept()).into_keys().filter(|name| name.extension().is_some_and(|e| e == "md")) {
         let page = fs::read_to_string(kept().join(&name)).expect("a page");
         for link in links(&page) {
             assert!(kept().join(link).exists(), "{}: {link}", name.display());

@@ -1,9 +1,9 @@
 //! Interval arithmetic against exact numbers: m·2^e for the four operations, sums of 400 binary places with
 //! a bounded rest for the functions. None of it rounds as f64 does.
 
+use bounds::interval::Interval;
 use num_bigint::BigInt;
 use proptest::prelude::*;
-use sim::interval::Interval;
 
 /// Binary places of a fixed-point number; the sums below are off by less than 2^−300.
 const PLACES: i64 = 400;
@@ -20,8 +20,7 @@ impl Dyadic {
         assert!(value.is_finite());
         let bits = value.to_bits();
         let (biased, fraction) = ((bits >> 52 & 0x7ff) as i64, (bits & ((1 << 52) - 1)) as i64);
-        let (m, e) =
-            if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
+        let (m, e) = if biased == 0 { (fraction, -1074) } else { (fraction | 1 << 52, biased - 1075) };
         Self { m: BigInt::from(if value < 0.0 { -m } else { m }), e }
     }
 
@@ -71,8 +70,7 @@ fn holds_fixed(interval: Interval, value: &BigInt) -> bool {
 
 fn holds_between(interval: Interval, low: &BigInt, high: &BigInt) -> bool {
     let fixed = |m: &BigInt| Dyadic { m: m.clone(), e: -PLACES };
-    Dyadic::new(interval.low()).at_most(&fixed(low))
-        && fixed(high).at_most(&Dyadic::new(interval.high()))
+    Dyadic::new(interval.low()).at_most(&fixed(low)) && fixed(high).at_most(&Dyadic::new(interval.high()))
 }
 
 /// Σ a_k·t^k, k up to 500, in units of 2^−PLACES; `next` turns the term t^k·c_k into t^(k+1)·c_(k+1) by a
@@ -216,9 +214,7 @@ proptest! {
 fn what_is_not_known_is_said() {
     let unknown = Interval::UNKNOWN;
     let (zero, one) = (Interval::ZERO, Interval::ONE);
-    for divisor in
-        [zero, Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0), Interval::new(-1.0, 0.0)]
-    {
+    for divisor in [zero, Interval::new(-1.0, 1.0), Interval::new(0.0, 1.0), Interval::new(-1.0, 0.0)] {
         assert_eq!(one / divisor, unknown);
         assert_eq!(zero / divisor, unknown);
     }

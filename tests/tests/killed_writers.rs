@@ -1,8 +1,8 @@
-//! Commands that are killed, or that fail, while they write: afterwards there is the old set, the new set, or files that
-//! every reader refuses.
+//! Commands that are killed, or that fail, while they write: afterwards there is the old set, the new set, or files
+//! that every reader refuses.
 //!
-//! `BLYSK_ABORT_AT_STEP` and `BLYSK_FAIL_AT_STEP` (builds with debug assertions have them) stop at each step of a commit
-//! that others can see. `BLYSK_KILLS=all` adds the commands that take seconds.
+//! `BLYSK_ABORT_AT_STEP` and `BLYSK_FAIL_AT_STEP` (builds with debug assertions have them) stop at each step of a
+//! commit that others can see. `BLYSK_KILLS=all` adds the commands that take seconds.
 
 use std::path::Path;
 use std::process::Stdio;
@@ -41,10 +41,8 @@ fn cases() -> Vec<Case> {
         "document --config small.json".to_owned(),
         format!("specialise {SCENE} --config one.json --count 20"),
     ];
-    let some = [
-        format!("render {SCENE} --config one.json --size 16x12"),
-        "report --config small.json --bound 1".to_owned(),
-    ];
+    let some =
+        [format!("render {SCENE} --config one.json --size 16x12"), "report --config small.json --bound 1".to_owned()];
     let slow = [
         "claims",
         "stability --config small.json --samples 9",
@@ -52,8 +50,7 @@ fn cases() -> Vec<Case> {
         "report --all-presets --bound 1",
     ];
     let case = |stride| move |arguments| Case { arguments, stride };
-    let mut cases: Vec<Case> =
-        every.into_iter().map(case(1)).chain(some.into_iter().map(case(3))).collect();
+    let mut cases: Vec<Case> = every.into_iter().map(case(1)).chain(some.into_iter().map(case(3))).collect();
     if std::env::var_os("BLYSK_KILLS").is_some_and(|asked| asked == "all") {
         cases.extend(slow.map(str::to_owned).map(case(7)));
     }
@@ -69,9 +66,7 @@ fn prepared() -> Bench {
 
 /// Without what a killed command may leave: hidden files, and what they are in.
 fn visible(tree: Tree) -> Tree {
-    let hidden = |path: &Path| {
-        path.components().any(|part| part.as_os_str().to_string_lossy().starts_with(".blysk-"))
-    };
+    let hidden = |path: &Path| path.components().any(|part| part.as_os_str().to_string_lossy().starts_with(".blysk-"));
     tree.into_iter().filter(|(path, _)| !hidden(path)).collect()
 }
 
@@ -200,10 +195,7 @@ fn killed_or_failed_at_any_step_of_a_commit() {
             let (status, said) = run_with(&bench, &case, "BLYSK_FAIL_AT_STEP", step);
             assert_eq!(status, Some(2), "{name} {step}: {said}");
             assert!(said.contains("free some space"), "{name} {step}: {said}");
-            assert!(
-                bench.tree(PLACE) == old,
-                "{name} {step}: a step that fails leaves the old set"
-            );
+            assert!(bench.tree(PLACE) == old, "{name} {step}: a step that fails leaves the old set");
             step += case.stride;
         }
         // Each file has a step, so that a run without debug assertions, which has none, fails here.
@@ -298,8 +290,7 @@ fn signals_remove_what_is_under_way() {
             let pipe = std::process::Command::new("mkfifo").arg(bench.path("pipe")).status();
             assert!(pipe.unwrap().success());
             // The stimulus never comes, and the places are begun before it is waited for.
-            let words =
-                ["simulate", "--config", "small.json", "--stimulus", "pipe", "--out", place];
+            let words = ["simulate", "--config", "small.json", "--stimulus", "pipe", "--out", place];
             let mut command = bench.command(&words);
             let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
             let begun = Instant::now();

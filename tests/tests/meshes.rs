@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use sim::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
+use scenes::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
 
 fn flat(text: &str) -> Vec<Triangle> {
     triangles(text, Normals::Flat).unwrap_or_else(|error| panic!("{text}{error}"))
@@ -48,11 +48,7 @@ fn shoelace(corners: &[Vector]) -> f64 {
 fn fills(corners: &[Vector], area_wanted: f64) {
     let found = flat(&face(corners));
     assert_eq!(found.len(), corners.len() - 2, "{corners:?}");
-    assert!(
-        (area(&found) - area_wanted).abs() < 1e-9 * area_wanted,
-        "{} {area_wanted}",
-        area(&found)
-    );
+    assert!((area(&found) - area_wanted).abs() < 1e-9 * area_wanted, "{} {area_wanted}", area(&found));
     let first = found[0].normals[0];
     assert!(found.iter().all(|triangle| (triangle.normals[0].dot(first) - 1.0).abs() < 1e-9));
     for corner in corners {
@@ -62,13 +58,12 @@ fn fills(corners: &[Vector], area_wanted: f64) {
 
 #[test]
 fn convex_polygons_are_fans_from_their_first_corner() {
-    let hexagon =
-        plane(&[(2.0, 0.0), (1.0, 2.0), (-1.0, 2.0), (-2.0, 0.0), (-1.0, -2.0), (1.0, -2.0)]);
+    let hexagon = plane(&[(2.0, 0.0), (1.0, 2.0), (-1.0, 2.0), (-2.0, 0.0), (-1.0, -2.0), (1.0, -2.0)]);
     // Concave at the first corner, where its fan fills it as well.
     let arrow = plane(&[(0.0, 0.5), (-1.0, -1.0), (0.0, 2.0), (1.0, -1.0)]);
     // No plane goes through these four; the two triangles are those of every other program.
-    let bent = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.4), (1.0, 1.0, 0.0), (0.0, 1.0, 0.3)]
-        .map(|(x, y, z)| Vector::new(x, y, z));
+    let bent =
+        [(0.0, 0.0, 0.0), (1.0, 0.0, 0.4), (1.0, 1.0, 0.0), (0.0, 1.0, 0.3)].map(|(x, y, z)| Vector::new(x, y, z));
     for corners in [&hexagon[..], &arrow, &bent] {
         let found: Vec<[Vector; 3]> = flat(&face(corners)).iter().map(|of| of.corners).collect();
         let fan: Vec<[Vector; 3]> =
@@ -92,9 +87,7 @@ fn polygons_that_turn_in_are_filled_and_not_left() {
     keyhole.push((-2.0, -2.0));
     keyhole.extend([(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)]);
     let arrow = [(-1.0, -1.0), (0.0, 0.5), (1.0, -1.0), (0.0, 2.0)];
-    for (corners, wanted) in
-        [(&l[..], 2.0 * 0.6 + 1.4 * 0.6), (&comb, 60.0), (&keyhole, 12.0), (&arrow, 1.5)]
-    {
+    for (corners, wanted) in [(&l[..], 2.0 * 0.6 + 1.4 * 0.6), (&comb, 60.0), (&keyhole, 12.0), (&arrow, 1.5)] {
         let corners = plane(corners);
         assert!((shoelace(&corners).abs() - wanted).abs() < 1e-9, "{}", shoelace(&corners));
         for start in 0..corners.len() {
@@ -128,17 +121,14 @@ fn corners_on_an_edge_stay_corners() {
         (-1.0, -0.9),
     ];
     // In a plane at an angle, where rounding moves them a little off their edges.
-    let tilted: Vec<Vector> = corners
-        .iter()
-        .map(|&(x, y)| Vector::new(x, 0.6 * y + 0.1 * x, 0.8 * y - 0.3 * x))
-        .collect();
+    let tilted: Vec<Vector> =
+        corners.iter().map(|&(x, y)| Vector::new(x, 0.6 * y + 0.1 * x, 0.8 * y - 0.3 * x)).collect();
     for start in 0..corners.len() {
         let (mut flat, mut tilted) = (plane(&corners), tilted.clone());
         flat.rotate_left(start);
         tilted.rotate_left(start);
         fills(&flat, 4.0);
-        let quad =
-            [0, 3, 6, 9].map(|index| tilted[(index + corners.len() - start) % corners.len()]);
+        let quad = [0, 3, 6, 9].map(|index| tilted[(index + corners.len() - start) % corners.len()]);
         fills(&tilted, area(&self::flat(&face(&quad))));
     }
 }
@@ -156,8 +146,7 @@ fn a_corner_that_repeats_the_one_before_it_is_none() {
 /// An outline that walks out and back along one line is as if it had not.
 #[test]
 fn a_spike_without_width_covers_nothing() {
-    let spike =
-        [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (3.0, 3.0), (2.0, 2.0), (1.0, 0.5), (0.0, 2.0)];
+    let spike = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (3.0, 3.0), (2.0, 2.0), (1.0, 0.5), (0.0, 2.0)];
     assert!((area(&flat(&face(&plane(&spike)))) - 2.5).abs() < 1e-12);
 }
 
@@ -187,8 +176,7 @@ fn polygons_that_are_none_are_refused_with_their_line() {
 /// A star of many points around a middle.
 fn star(count: u32, inner: f64) -> Vec<Vector> {
     let corner = |index: u32| {
-        let (sine, cosine) =
-            (f64::from(index) * std::f64::consts::TAU / f64::from(count)).sin_cos();
+        let (sine, cosine) = (f64::from(index) * std::f64::consts::TAU / f64::from(count)).sin_cos();
         let radius = if index.is_multiple_of(2) { 1.0 } else { inner };
         Vector::new(radius * cosine, radius * sine, 0.0)
     };
@@ -233,9 +221,7 @@ fn faces_with_normals_stand_beside_faces_without() {
     assert!(found[0].normals.iter().all(|&normal| near(normal, Vector::new(0.6, 0.0, 0.8))));
     assert!(found[1].normals.iter().all(|&normal| near(normal, Vector::new(0.0, 0.0, -1.0))));
     // What no face uses is no mistake; what one uses is, in its own line, unless the scene wants flat normals.
-    for wrong in
-        ["vn 0 0 0", "vn nan 0 0", "vn inf 0 0", "vn 1 2", "vn one 2 3", "vn -1.#IND00 0 0", "vn"]
-    {
+    for wrong in ["vn 0 0 0", "vn nan 0 0", "vn inf 0 0", "vn 1 2", "vn one 2 3", "vn -1.#IND00 0 0", "vn"] {
         let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\n{wrong}\nf 1//1 2//1 3//1\n");
         assert_eq!(triangles(&text, Normals::Smooth).unwrap().len(), 1);
         let used = text.replace("3//1", "3//2");
@@ -245,7 +231,8 @@ fn faces_with_normals_stand_beside_faces_without() {
     }
 }
 
-const MESH: &str = "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0 # b\nvt 0 0\nvn 0 0 1\ng a\nf 1//1 \\\n 2//1 3//1\nf 2 4 3\n";
+const MESH: &str = "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0 # b\nvt 0 0\nvn 0 0 1\ng a\n\
+                    f 1//1 \\\n 2//1 3//1\nf 2 4 3\n";
 
 #[test]
 fn what_is_wrong_has_its_line() {
@@ -279,12 +266,7 @@ fn what_is_wrong_has_its_line() {
         ("f 2 4 3", "f 2 4 1.0", 11, "\"1.0\" is not an index of a v"),
         ("f 2 4 3", "f 2 4 99999999999999999999", 11, "is not an index of a v"),
         ("f 2 4 3", "f 2 4 -9223372036854775808", 11, "is not an index of a v"),
-        (
-            "f 2 4 3",
-            "f 2 4 9223372036854775807",
-            11,
-            "v 9223372036854775807 of this face does not exist",
-        ),
+        ("f 2 4 3", "f 2 4 9223372036854775807", 11, "v 9223372036854775807 of this face does not exist"),
         ("f 2 4 3", "f 2 4 3/1/1/1", 11, "v, v/vt, v//vn or v/vt/vn"),
         ("f 2 4 3", "f 2 4 /1", 11, "\"/1\" is not a corner"),
         ("f 2 4 3", "f 2 4 /", 11, "\"/\" is not a corner"),
@@ -299,9 +281,7 @@ fn what_is_wrong_has_its_line() {
         let ends = refused(&text.replace('\n', "\r\n"), Normals::Smooth);
         assert_eq!(ends, found, "{to:?}");
     }
-    for (text, line) in
-        [("", 1), ("\n\n", 2), ("# a\nv 0 0 0\n", 2), ("solid a\nfacet normal 0 0 1", 2)]
-    {
+    for (text, line) in [("", 1), ("\n\n", 2), ("# a\nv 0 0 0\n", 2), ("solid a\nfacet normal 0 0 1", 2)] {
         let (found, problem) = refused(text, Normals::Flat);
         assert!(found == line && problem.contains("no face"), "{found} {problem}");
     }

@@ -3,13 +3,13 @@
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::refine::{Found, Options, Range, Refined, refine};
 use hw_model::config::Config;
 use hw_model::design::{Design, Revision};
 use hw_model::highlight::phong;
-use hw_model::steps::CoefficientSteps;
+use hw_model::steps::{CoefficientSteps, Steps};
 use naive::comparison::{self, Comparison};
 use serde_json::json;
-use sim::analysis::refine::{Found, Options, Range, Refined, refine};
 
 const OPTIONS: Options = Options { range: Range::Fitted, reach: 8 };
 
@@ -36,8 +36,8 @@ fn worst(design: &Design, address: u32, segment: u32) -> f64 {
     let row = &design.rows()[address as usize];
     let config = design.config();
     let xs = match segment {
-        1 => row.cut.max(row.hand_over)..=config.input.one(),
-        _ => row.cut..=row.hand_over - 1,
+        1 => row.least_of_segment(0)..=config.input.one(),
+        _ => row.cut..=row.segments[1].start - 1,
     };
     let datapath = design.datapath();
     xs.map(|x| {
@@ -55,12 +55,15 @@ fn beside(design: &Design, found: &Found, by: [i32; 4]) -> Option<Design> {
     rows.retain(|row| row.n != found.n);
     let own = design.config().coefficient_steps.iter().find(|row| row.n == found.n);
     let own = own.copied().unwrap_or(CoefficientSteps::none(found.n));
-    let steps = std::array::from_fn(|i| found.steps[i] + by[i]);
-    rows.push(own.with(found.segment == 2, steps));
+    let mut steps = Steps::default();
+    for (step, (own, by)) in steps.iter_mut().zip(found.steps.iter().zip(by)) {
+        *step = own + by;
+    }
+    rows.push(own.with(found.segment as usize - 1, steps));
     revision.error_budget_ulp = 1e6;
     let beside = design.revised(revision).ok()?;
-    let t3 = |design: &Design| design.datapath().formats().polynomial.unwrap().t3;
-    (t3(&beside) == t3(design)).then_some(beside)
+    let last = |design: &Design| design.datapath().formats().polynomial.unwrap().last();
+    (last(&beside) == last(design)).then_some(beside)
 }
 
 #[test]
@@ -155,8 +158,7 @@ fn the_bound_holds_with_steps() {
 fn steps_that_cannot_be_are_refused() {
     let design = small(1, "centred");
     let refusal = |steps: serde_json::Value, widths: bool| {
-        let mut config: serde_json::Value =
-            serde_json::from_str(&design.config().to_json()).unwrap();
+        let mut config: serde_json::Value = serde_json::from_str(&design.config().to_json()).unwrap();
         config["coefficient_steps"] = steps;
         config["error_budget_ulp"] = json!(1e6);
         if widths {
@@ -170,9 +172,9 @@ fn steps_that_cannot_be_are_refused() {
     for (steps, widths, words) in [
         (json!([{"n": 5, "c1": 1}]), false, vec!["coefficient_steps", "n = 5", "1,4,7.5,12"]),
         (json!([{"n": 4, "c1": 1}, {"n": 4, "c2": 1}]), false, vec!["n = 4", "twice"]),
-        (json!([{"n": 4, "c1_outer": 1}]), false, vec!["n = 4", "second segment"]),
+        (json!([{"n": 4, "c1_outer": 1}]), false, vec!["n = 4", "there is no c1_outer", "\"segments\" is 1"]),
         (json!([{"n": 4, "c1": 70_000}]), false, vec!["n = 4", "70000 steps of c1", "65536"]),
-        (json!([{"n": 4, "c4": 1}]), false, vec!["c4", "c3"]),
+        (json!([{"n": 4, "c4": 1}]), false, vec!["n = 4", "there is no c4", "\"degree\" 3"]),
         (json!([{"c3": 1}]), false, vec!["missing field `n`"]),
         (json!([{"n": 4, "c1": 0.5}]), false, vec!["0.5", "i32"]),
         (json!([{"n": 4, "c1": 60_000}]), true, vec!["register c1", "n = 4", "could overflow"]),
@@ -195,7 +197,7 @@ fn steps_count_against_the_budget() {
     let design = small(1, "centred");
     let mut revision = design.revision();
     revision.widths = design.widths();
-    revision.coefficient_steps = vec![CoefficientSteps { c1: 40, ..CoefficientSteps::none(4.0) }];
+    revision.coefficient_steps = vec![CoefficientSteps::none(4.0).with(0, [0, 40, 0, 0, 0])];
     let message = design.revised(revision).unwrap_err().to_string();
     assert!(message.contains("error budget") && message.contains("n = 4"), "{message}");
 }

@@ -41,7 +41,7 @@ fn log(datapath: &Datapath, cycles: u64, seed: u64) -> String {
         for (index, rank) in pipeline.ranks().iter().enumerate() {
             write!(text, " {}", flag(rank.valid)).unwrap();
             for probe in probes.iter().filter(|probe| probe.rank == index) {
-                let bits = (probe.register.bits)(&rank.signals);
+                let bits = probe.register.bits(&rank.signals);
                 match rank.loaded {
                     true => write!(text, " {:X}", probe.register.format.to_word(bits)).unwrap(),
                     false => text += " xX",
@@ -106,11 +106,8 @@ fn any_wrong_word_is_found() {
                 continue;
             }
             let wrong = if words[place] == "0" { "1" } else { "0" };
-            let changed: Vec<&str> = words
-                .iter()
-                .enumerate()
-                .map(|(at, word)| if at == place { wrong } else { word })
-                .collect();
+            let changed: Vec<&str> =
+                words.iter().enumerate().map(|(at, word)| if at == place { wrong } else { word }).collect();
             let changed = changed.join(" ");
             let mut text = lines.clone();
             text[line] = &changed;

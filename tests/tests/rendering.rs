@@ -9,14 +9,12 @@ use hw_model::design::Design;
 use hw_model::highlight::phong;
 use hw_model::presets;
 use proptest::prelude::*;
-use sim::analysis::error_report::Progress;
-use sim::render::{
-    Bvh, Codes, Part, Pipeline, Presented, Ray, Samples, SurfacePixel, Which, difference, meet,
-    presented, reference, samples, shade,
+use scenes::render::{
+    Bvh, Codes, Presented, Ray, Samples, ScenePipeline, SurfacePixel, Which, Zone, difference, meet, presented,
+    reference, samples, shade,
 };
-use sim::scene::{
-    Angle, Knot, Light, Normals, Origin, Scene, Shape, Surface, Triangle, Vector, schema, triangles,
-};
+use scenes::scene::{Angle, Knot, Light, Normals, Origin, Scene, Shape, Surface, Triangle, Vector, schema, triangles};
+use vectors::progress::Progress;
 
 struct Silent;
 impl Progress for Silent {
@@ -27,8 +25,7 @@ fn documents() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")
 }
 
-const SCENES: [&str; 5] =
-    ["one_material", "many_materials", "close_up", "low_exponents", "torus_knot"];
+const SCENES: [&str; 5] = ["one_material", "many_materials", "close_up", "low_exponents", "torus_knot"];
 
 /// One of `docs/scenes`, in a small picture of the same shape.
 fn scene(name: &str) -> Scene {
@@ -221,7 +218,7 @@ thread_local! {
 }
 
 fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
-    let pipeline = Pipeline::new(design, scene).unwrap();
+    let pipeline = ScenePipeline::new(design, scene).unwrap();
     let every = pipeline.answers(samples, Which::Every);
     let needed = pipeline.answers(samples, Which::Needed);
     assert_eq!(every.intensities, needed.intensities);
@@ -235,16 +232,16 @@ fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
         let Signals { intensity, region, .. } = design.datapath().evaluate(address, x);
         let part = needed.parts[index];
         if !(sample.lit > 0.0 && sample.x > 0.0) {
-            assert_eq!((part, needed.intensities[index]), (Part::FacesAway, 0));
+            assert_eq!((part, needed.intensities[index]), (Zone::FacesAway, 0));
             continue;
         }
         asked += u64::from(region != Region::Zero);
         assert_eq!(needed.intensities[index], intensity, "n = {exponent}, x = {x}");
-        let row = design.rows()[address as usize];
+        let row = &design.rows()[address as usize];
         let wanted = match region {
-            Region::Zero => Part::Zero,
-            _ if x >= row.first_of_epicentre(design.config()) => Part::Epicentre,
-            _ => Part::Tail,
+            Region::Zero => Zone::Zero,
+            _ if x >= row.first_of_epicentre(design.config()) => Zone::Epicentre,
+            _ => Zone::Tail,
         };
         assert_eq!(part, wanted, "n = {exponent}, x = {x}");
     }
@@ -256,7 +253,7 @@ fn one_by_one(scene: &Scene, design: &Design, samples: &Samples) {
 fn requests_are_the_samples_by_exponent() {
     let scene = scene("many_materials");
     let design = design("paper");
-    let pipeline = Pipeline::new(&design, &scene).unwrap();
+    let pipeline = ScenePipeline::new(&design, &scene).unwrap();
     let samples = samples(&scene, &Silent);
     let groups = pipeline.requests(&samples, 0..samples.samples.len(), Which::Every);
     let mut seen = vec![false; samples.samples.len()];
@@ -276,7 +273,8 @@ fn requests_are_the_samples_by_exponent() {
     assert_eq!(exponents, scene.exponents());
 }
 
-/// Every preset that has the exponents: leaving samples out changes no bit, and the picture errs by what the method does.
+/// Every preset that has the exponents: leaving samples out changes no bit, and the picture errs by what the method
+/// does.
 #[test]
 fn every_preset_renders_every_scene() {
     for preset in presets::ALL {
@@ -285,7 +283,7 @@ fn every_preset_renders_every_scene() {
             let scene = scene(name);
             let samples = samples(&scene, &Silent);
             one_by_one(&scene, &design, &samples);
-            let pipeline = Pipeline::new(&design, &scene).unwrap();
+            let pipeline = ScenePipeline::new(&design, &scene).unwrap();
             let answers = pipeline.answers(&samples, Which::Needed);
             let codes = Codes::new(&scene.image);
             let ideal = shade(&scene, &samples, &codes, &reference(&scene, &samples));
@@ -313,9 +311,9 @@ fn the_reference_is_x_to_the_n() {
     assert!(bright > 0 && samples.samples.len() > 1000);
 }
 
-/// By the samples, and by the angles themselves: a ray at most θ off the axis passes within 600 · tan θ of it wherever it
-/// meets the ball of radius 20, so the normal there leaves the axis by at most arcsin(600 · tan θ / 20), and the mirrored
-/// light the viewer by twice that and θ.
+/// By the samples, and by the angles themselves: a ray at most θ off the axis passes within 600 · tan θ of it wherever
+/// it meets the ball of radius 20, so the normal there leaves the axis by at most arcsin(600 · tan θ / 20), and the
+/// mirrored light the viewer by twice that and θ.
 #[test]
 fn the_close_up_never_leaves_the_epicentre() {
     let scene = scene("close_up");
@@ -323,9 +321,9 @@ fn the_close_up_never_leaves_the_epicentre() {
     let samples = samples(&scene, &Silent);
     let count = scene.image.width * scene.image.height;
     assert_eq!(samples.pixels.len(), count as usize, "it fills the picture");
-    let pipeline = Pipeline::new(&design, &scene).unwrap();
+    let pipeline = ScenePipeline::new(&design, &scene).unwrap();
     let answers = pipeline.answers(&samples, Which::Every);
-    assert!(answers.parts.iter().all(|&part| part == Part::Epicentre));
+    assert!(answers.parts.iter().all(|&part| part == Zone::Epicentre));
     let [material] = scene.materials.as_slice() else { panic!("one material") };
     let epicentre = 0.5_f64.powf(1.0 / material.exponent);
     let aspect = f64::from(scene.image.width) / f64::from(scene.image.height);

@@ -16,8 +16,8 @@ use crate::faults::{Compact, OneByOne, Workers};
 pub use crate::limits::MAX_VECTORS;
 use crate::limits::{Sweep, TooManyInputs, inputs};
 use crate::manifest::{
-    Counts, EXPECTED, FAULTS, FORMAT_VERSION, FaultCounts, Hardware, MANIFEST, Manifest,
-    NEGATIVE_CONTROL, ROM, STIMULUS, TABLE, Words,
+    Counts, EXPECTED, FAULTS, FORMAT_VERSION, FaultCounts, Hardware, MANIFEST, Manifest, NEGATIVE_CONTROL, ROM,
+    STIMULUS, TABLE, Words,
 };
 use crate::memory_file::{Header, write_header, write_word};
 use crate::negative_control::{Flip, NegativeControl};
@@ -34,15 +34,15 @@ pub const COMMAND: &str = "vectors";
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BundleError {
-    /// Nothing asked for.
+    /// A count of 0, with which the bundle would check nothing.
     #[error("a bundle of 0 vectors would check nothing; ask for a count of 1 or more")]
     NoVectors,
-    /// More than [`MAX_VECTORS`].
+    /// A count above [`MAX_VECTORS`].
     #[error(
         "{strategy} would give {count} vectors, more than {MAX_VECTORS}; {}", advice(*strategy)
     )]
     TooMany {
-        /// The strategy.
+        /// The strategy that was asked for.
         strategy: Strategy,
         /// How many vectors it would give.
         count: u128,
@@ -132,12 +132,12 @@ impl<'a> Bundle<'a> {
         Self { watcher: Watcher(watcher), ..self }
     }
 
-    /// So many more vectors are written to one of the files.
+    /// Counts `vectors` more that are written to one of the files.
     pub(crate) fn written(&self, vectors: u64) {
         (self.watcher.0)(vectors);
     }
 
-    /// Checks a count alone, for those who have work to do before the bundle.
+    /// Checks a count alone, for callers that have work to do before the bundle.
     ///
     /// # Errors
     /// When there would be no vectors, or more than [`MAX_VECTORS`].
@@ -145,14 +145,12 @@ impl<'a> Bundle<'a> {
         match count {
             _ if strategy.counts_itself() => Ok(()),
             0 => Err(BundleError::NoVectors),
-            count if count > MAX_VECTORS => {
-                Err(BundleError::TooMany { strategy, count: count.into() })
-            }
+            count if count > MAX_VECTORS => Err(BundleError::TooMany { strategy, count: count.into() }),
             _ => Ok(()),
         }
     }
 
-    /// The design.
+    /// The design for which the vectors are made.
     #[must_use]
     pub const fn design(&self) -> &'a Design {
         self.design
@@ -283,8 +281,7 @@ impl<'a> Bundle<'a> {
         };
         let mut stimulus = begin(set, STIMULUS, "stimulus", &words.stimulus)?;
         let mut expected = begin(set, EXPECTED, "expected answers", &words.expected)?;
-        let mut control =
-            begin(set, NEGATIVE_CONTROL, "expected answers, one of them wrong", &words.expected)?;
+        let mut control = begin(set, NEGATIVE_CONTROL, "expected answers, one of them wrong", &words.expected)?;
         let csv = Begun::new(set, TABLE)?;
         let in_table = |cause| OutputError::Write { path: set.directory().join(TABLE), cause };
         let mut table = TableWriter::new(self.design, csv.0).map_err(in_table)?;
@@ -310,8 +307,7 @@ impl<'a> Bundle<'a> {
             *kinds.entry(sample.kind).or_insert(0) += 1;
         }
         let csv = Begun(table.finish().map_err(in_table)?);
-        let written =
-            [(STIMULUS, stimulus), (EXPECTED, expected), (NEGATIVE_CONTROL, control), (TABLE, csv)];
+        let written = [(STIMULUS, stimulus), (EXPECTED, expected), (NEGATIVE_CONTROL, control), (TABLE, csv)];
         for (name, file) in written {
             files.insert(name.to_owned(), file.keep(set)?);
         }
@@ -384,22 +380,12 @@ impl Begun {
         set.file(name).map(Self)
     }
 
-    fn header(
-        &mut self,
-        title: &str,
-        layout: &WordLayout,
-        words: u64,
-        command: &str,
-    ) -> Result<(), OutputError> {
+    fn header(&mut self, title: &str, layout: &WordLayout, words: u64, command: &str) -> Result<(), OutputError> {
         let header = Header { title, layout, words, command };
         write_header(&mut self.0, &header).map_err(|cause| self.0.error(cause))
     }
 
-    fn word(
-        &mut self,
-        layout: &WordLayout,
-        word: &impl std::fmt::LowerHex,
-    ) -> Result<(), OutputError> {
+    fn word(&mut self, layout: &WordLayout, word: &impl std::fmt::LowerHex) -> Result<(), OutputError> {
         write_word(&mut self.0, layout, word).map_err(|cause| self.0.error(cause))
     }
 

@@ -22,6 +22,7 @@ pub struct Case {
 
 impl Case {
     /// The case of an address; its exponent is the one the ROM has there.
+    #[inline]
     #[must_use]
     pub fn at(rom: &Rom, address: u32, x: i64) -> Self {
         let exponent = rom.exponents().as_slice().get(address as usize).copied();
@@ -29,6 +30,7 @@ impl Case {
     }
 
     /// The case of an exponent; without a ROM word it goes to the first address past the end.
+    #[inline]
     #[must_use]
     pub fn of(rom: &Rom, exponent: f64, x: i64) -> Self {
         Self { exponent: Some(exponent), address: rom.address_of(exponent), x }
@@ -38,7 +40,7 @@ impl Case {
 /// A case and why it was chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// The case.
+    /// The input: an address and an x.
     pub case: Case,
     /// Why it was chosen.
     pub kind: Kind,
@@ -58,7 +60,7 @@ pub enum Strategy {
     Corners,
     /// Evenly spaced over [0, 1] ([`crate::stimulus::even`]).
     Even,
-    /// Seeded random ([`crate::stimulus::random`]).
+    /// Vectors drawn from a seed ([`crate::stimulus::random`]).
     Random,
     /// Every address with every x; the count is not asked.
     Exhaustive,
@@ -66,8 +68,7 @@ pub enum Strategy {
 
 impl Strategy {
     /// Every strategy, the default first.
-    pub const ALL: [Self; 6] =
-        [Self::Mixed, Self::Compact, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
+    pub const ALL: [Self; 6] = [Self::Mixed, Self::Compact, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
 
     /// True where the strategy itself says how many cases there are.
     #[must_use]
@@ -104,9 +105,6 @@ impl FromStr for Strategy {
     type Err = StrategyError;
 
     fn from_str(text: &str) -> Result<Self, StrategyError> {
-        Self::ALL
-            .into_iter()
-            .find(|strategy| strategy.name() == text)
-            .ok_or_else(|| StrategyError(text.to_owned()))
+        Self::ALL.into_iter().find(|strategy| strategy.name() == text).ok_or_else(|| StrategyError(text.to_owned()))
     }
 }

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Checksum {
-    /// Its size.
+    /// The number of bytes of the file.
     pub bytes: u64,
     /// SHA-256, 64 hex digits.
     pub sha256: String,
@@ -29,7 +29,7 @@ impl<W> Checked<W> {
         Self { inner, hash: Sha256::new(), bytes: 0 }
     }
 
-    /// The writer again.
+    /// The writer below, to which all bytes went on.
     pub const fn get_ref(&self) -> &W {
         &self.inner
     }

@@ -8,16 +8,16 @@
 
 use std::io::{self, Write};
 
-use crate::faults::Verdict;
+use crate::faults::FaultFate;
 
 /// Writes the table.
 ///
 /// # Errors
 /// When the writer does.
-pub fn write_faults<W: Write>(out: W, verdicts: &[Verdict]) -> io::Result<W> {
+pub fn write_faults<W: Write>(out: W, verdicts: &[FaultFate]) -> io::Result<W> {
     let mut csv = csv::Writer::from_writer(out);
     csv.write_record(["fault", "outcome", "vector"])?;
-    for Verdict { fault, killed_by } in verdicts {
+    for FaultFate { fault, killed_by } in verdicts {
         let vector = killed_by.map_or_else(String::new, |index| index.to_string());
         let outcome = if killed_by.is_some() { "killed" } else { "equivalent" };
         csv.write_record([fault.to_string().as_str(), outcome, vector.as_str()])?;

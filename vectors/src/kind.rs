@@ -11,7 +11,7 @@ pub enum Kind {
     One,
     /// One ulp below or above 1.
     BesideOne,
-    /// x = 0.
+    /// x = 0, the least x that is not clamped.
     Zero,
     /// x = 1 ulp.
     BesideZero,
@@ -45,9 +45,9 @@ pub enum Kind {
     NoWord,
     /// A point of the even grid.
     Even,
-    /// Drawn at random.
+    /// Drawn at random from the seed.
     Random,
-    /// One of all.
+    /// One of all inputs, in order.
     Exhaustive,
 }
 

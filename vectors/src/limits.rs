@@ -36,26 +36,26 @@ pub fn inputs(design: &Design) -> u128 {
 /// What goes over inputs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sweep {
-    /// `blysk report --exhaustive`.
+    /// `blysk report --exhaustive`: every x of every exponent once.
     Report,
     /// `blysk certify` of a configuration, and its `--check`.
     Certify,
     /// `blysk stability`, the pairs of neighbouring x.
     Stability,
-    /// `blysk pareto`.
+    /// `blysk pareto`: every x of every exponent once for all contenders.
     Pareto,
     /// `blysk specialise` and its `--check`.
     Specialise,
     /// `blysk vectors --strategy compact`.
     Compact,
-    /// `blysk design`.
+    /// `blysk design`: every x for each design that is tried.
     Design,
-    /// `blysk refine`.
+    /// `blysk refine`: every x for each set of integers that is tried.
     Refine,
 }
 
 impl Sweep {
-    /// Every one.
+    /// Every sweep, in the order above.
     pub const ALL: [Self; 8] = [
         Self::Report,
         Self::Certify,
@@ -121,10 +121,10 @@ impl Sweep {
         }
     }
 
-    /// So many inputs, where they are not too many; `input` is the format of x.
+    /// The number of inputs as a `u64`, where it is within the limit of the sweep; `input` is the format of x.
     ///
     /// # Errors
-    /// When they are: the message says with how many fraction bits of x they would not be.
+    /// When there are more: the message says how many fraction bits of x would be within the limit.
     pub fn within(self, inputs: u128, input: QFormat) -> Result<u64, TooManyInputs> {
         self.at_most(self.most(), inputs, input, "gone through")
     }
@@ -137,13 +137,7 @@ impl Sweep {
         self.at_most(MOST_KEPT, inputs, input, "kept in memory, of one exponent")
     }
 
-    fn at_most(
-        self,
-        most: u128,
-        inputs: u128,
-        input: QFormat,
-        done: &'static str,
-    ) -> Result<u64, TooManyInputs> {
+    fn at_most(self, most: u128, inputs: u128, input: QFormat, done: &'static str) -> Result<u64, TooManyInputs> {
         if inputs > most {
             return Err(TooManyInputs { sweep: self, inputs, most, done, input });
         }
@@ -186,9 +180,9 @@ impl TooManyInputs {
             _ => "input format",
         };
         match self.fitting_bits() {
-            Some(bits) => format!(
-                "x is {input}: use a narrower {format} of {bits} fraction bits or fewer, or {remedy}"
-            ),
+            Some(bits) => {
+                format!("x is {input}: use a narrower {format} of {bits} fraction bits or fewer, or {remedy}")
+            }
             None => format!("x is {input}: use a narrower {format}, and {remedy}"),
         }
     }

@@ -14,6 +14,7 @@ use crate::case::Strategy;
 use crate::checksum::Checksum;
 use crate::faults::Compact;
 use crate::negative_control::NegativeControl;
+use crate::output_text::json;
 use crate::packing::WordLayout;
 
 /// The manifest's own name.
@@ -22,7 +23,7 @@ pub const MANIFEST: &str = "manifest.json";
 pub const STIMULUS: &str = "stimulus.mem";
 /// `{status, intensity}` of each case.
 pub const EXPECTED: &str = "expected.mem";
-/// The ROM image.
+/// The name of the ROM image, one word a row.
 pub const ROM: &str = "rom.mem";
 /// Every case with what each stage holds.
 pub const TABLE: &str = "vectors.csv";
@@ -35,11 +36,11 @@ pub const FAULTS: &str = "faults.csv";
 /// The version of the manifest itself; a reader refuses others.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// The manifest.
+/// What made a bundle, how its words are laid out, and the checksum of each file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
-    /// [`FORMAT_VERSION`].
+    /// The version of this format, [`FORMAT_VERSION`] when written.
     pub format_version: u32,
     /// Version of the tool that wrote the bundle.
     pub blysk_version: String,
@@ -63,7 +64,7 @@ pub struct Manifest {
     pub words: Words,
     /// Size and checksum of each file.
     pub files: BTreeMap<String, Checksum>,
-    /// The configuration, complete.
+    /// The whole configuration, so that the bundle can be made again from its manifest alone.
     pub configuration: Config,
 }
 
@@ -117,11 +118,11 @@ pub struct Hardware {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RomConstant {
-    /// The field.
+    /// The name of the field, such as `c1`.
     pub name: String,
-    /// Its format.
+    /// The format of its bits.
     pub format: QFormat,
-    /// Its bits.
+    /// Its bits, the same in every row.
     pub bits: i64,
 }
 
@@ -131,7 +132,7 @@ pub struct RomConstant {
 pub struct Rank {
     /// Its name, as in the table's columns.
     pub name: String,
-    /// Its registers.
+    /// The registers of the rank, in the order of traces.
     pub registers: Vec<RankRegister>,
 }
 
@@ -139,9 +140,9 @@ pub struct Rank {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RankRegister {
-    /// Its name.
+    /// The name of the register, as in traces.
     pub name: String,
-    /// Its format.
+    /// The format of its bits.
     pub format: QFormat,
     /// False where the value is only carried along; the table has no column for it then.
     pub computed: bool,
@@ -151,11 +152,11 @@ pub struct RankRegister {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Words {
-    /// Of [`STIMULUS`].
+    /// The layout of a word of [`STIMULUS`].
     pub stimulus: WordLayout,
-    /// Of [`EXPECTED`].
+    /// The layout of a word of [`EXPECTED`].
     pub expected: WordLayout,
-    /// Of [`ROM`].
+    /// The layout of a word of [`ROM`].
     pub rom: WordLayout,
 }
 
@@ -199,9 +200,7 @@ impl Hardware {
         let flags = flags.map(|(flag, name)| (*name, flag.bits().trailing_zeros()));
         let constants = rom.layout().fields().iter().filter_map(|field| match field.place {
             Place::Stored { .. } => None,
-            Place::Constant { bits } => {
-                Some(RomConstant { name: field.name.to_string(), format: field.format, bits })
-            }
+            Place::Constant { bits } => Some(RomConstant { name: field.name.to_string(), format: field.format, bits }),
         });
         Self {
             latency: datapath.rank_count() as u32,
@@ -216,7 +215,7 @@ impl Hardware {
 impl Rank {
     fn of(datapath: &Datapath, rank: usize) -> Self {
         let registers = datapath.registers(rank).into_iter().map(|register| RankRegister {
-            name: register.name.to_owned(),
+            name: register.name().to_owned(),
             format: register.format,
             computed: register.computed,
         });
@@ -229,9 +228,7 @@ impl Manifest {
     #[must_use]
     pub fn to_json(&self) -> String {
         // Plain fields and string keys: serialising cannot fail.
-        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
-        text.push('\n');
-        text
+        json(self).unwrap_or_default()
     }
 }
 

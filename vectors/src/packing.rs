@@ -22,19 +22,19 @@ pub enum LayoutError {
     /// A field lies elsewhere.
     #[error("field `{name}`: below what stands before it, {format} is bits {msb} to {lsb}")]
     Place {
-        /// The field.
+        /// The name of the field.
         name: String,
-        /// Its format.
+        /// The format that the layout gives the field.
         format: QFormat,
         /// The highest bit it should have.
         msb: u32,
         /// The lowest bit it should have.
         lsb: u32,
     },
-    /// Other fields.
+    /// The layout has other fields than the word needs.
     #[error("fields: from the highest bits down they are {wanted}")]
     Names {
-        /// The names.
+        /// The names of the fields that the word needs, in order.
         wanted: String,
     },
 }
@@ -59,19 +59,19 @@ pub struct WordField {
 pub struct WordLayout {
     /// Bits of the word.
     pub width: u32,
-    /// The fields.
+    /// The fields, from the lowest bit upwards.
     pub fields: Vec<WordField>,
 }
 
 impl WordLayout {
-    /// `{address, x}`.
+    /// The layout of a stimulus word, `{address, x}`: the address above x.
     #[must_use]
     pub fn stimulus(datapath: &Datapath) -> Self {
         let address = QFormat::field(datapath.rom().address_width());
         Self::of(&[("address", address), ("x", datapath.formats().input)])
     }
 
-    /// `{status, intensity}`.
+    /// The layout of an expected word, `{status, intensity}`: the status above the intensity.
     #[must_use]
     pub fn expected(datapath: &Datapath) -> Self {
         let status = QFormat::field(datapath.status_width());
@@ -149,9 +149,15 @@ impl WordLayout {
     #[must_use]
     pub fn pack(&self, bits: &[i64]) -> u128 {
         debug_assert_eq!(bits.len(), self.fields.len());
-        self.fields.iter().zip(bits).fold(0, |word, (field, &bits)| {
-            word | u128::from(field.format.to_word(bits)) << field.lsb
-        })
+        self.fields
+            .iter()
+            .zip(bits)
+            .fold(0, |word, (field, &bits)| word | u128::from(field.format.to_word(bits)) << field.lsb)
+    }
+
+    /// The bits of a port word, in the order of the fields, as [`pack`](Self::pack) packed them.
+    pub fn unpack_ports(&self, word: u128) -> impl Iterator<Item = i64> {
+        self.fields.iter().map(move |field| field.format.from_word((word >> field.lsb) as u64))
     }
 
     /// The bits of a word, in the order of the fields; what lies above the width is ignored.

@@ -15,19 +15,19 @@ const MARK: char = '\u{feff}';
 pub(crate) enum RecordError {
     /// It cannot be read.
     Text(TextProblem),
-    /// What it says.
+    /// A line has another shape or other values than a record may have.
     Line {
-        /// Counted from 1.
+        /// The number of the line, counted from 1.
         line: u64,
         /// What is wrong, and what would be right.
         problem: String,
     },
 }
 
-/// A line.
+/// One line of a CSV file, split into its fields.
 #[derive(Debug)]
 pub(crate) struct Record<'a> {
-    /// Counted from 1.
+    /// The number of the line, counted from 1.
     pub(crate) line: u64,
     /// As many as there are columns.
     pub(crate) fields: Vec<&'a str>,
@@ -73,9 +73,7 @@ impl<R: Read> Records<R> {
             },
             Some(columns) if columns != found => {
                 let why = why_other_count(&fields, columns);
-                return wrong(format!(
-                    "there are {found} fields, the first line names {columns} columns{why}"
-                ));
+                return wrong(format!("there are {found} fields, the first line names {columns} columns{why}"));
             }
             Some(_) => {}
         }

@@ -18,26 +18,26 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use hw_model::format::{Overflow, QFormat};
-use hw_model::quantise::{decimal, quantise};
+use hw_model::quantise::{self, x_bits};
 use hw_model::rom::Rom;
-use hw_model::rounding::Rounding;
 use thiserror::Error;
 
 use crate::case::Case;
+use crate::decimal;
 use crate::limits::MOST_CYCLES;
 use crate::records::{Record, RecordError, Records};
 use crate::text_file::{self, STIMULUS, TextError, TextReader};
 
 /// What one clock cycle puts on the pipeline's input ports.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Cycle {
+pub struct StimulusLine {
     /// Address and x; both 0 where the file left them empty.
     pub case: Case,
-    /// `in_valid`.
+    /// The level of `in_valid`: a request is presented from this cycle on.
     pub valid: bool,
-    /// `out_ready`.
+    /// The level of `out_ready`: a result can be taken in this cycle.
     pub ready: bool,
-    /// `reset`.
+    /// The level of `reset`.
     pub reset: bool,
 }
 
@@ -51,21 +51,21 @@ pub enum StimulusError {
     /// A line, or the line of column names.
     #[error("{}:{line}: {problem}", path.display())]
     Line {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
         /// What is wrong, and what would be right.
         problem: String,
     },
-    /// A field.
+    /// A field of a line cannot be used.
     #[error("{}:{line}: field `{field}`: {problem}", path.display())]
     Field {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
-        /// The column.
+        /// The name of the field's column.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,
@@ -76,7 +76,7 @@ pub enum StimulusError {
         if *nothing { ": it is empty, or has comments only" } else { "" }
     )]
     Empty {
-        /// The file.
+        /// The path of the stimulus.
         path: PathBuf,
         /// Not even the line of column names is there.
         nothing: bool,
@@ -87,7 +87,7 @@ pub enum StimulusError {
 ///
 /// # Errors
 /// Names the file, the line and the field, what is wrong and what would be right.
-pub fn read_stimulus(path: &Path, rom: &Rom, input: QFormat) -> Result<Vec<Cycle>, StimulusError> {
+pub fn read_stimulus(path: &Path, rom: &Rom, input: QFormat) -> Result<Vec<StimulusLine>, StimulusError> {
     parse(text_file::open(path, STIMULUS)?, path, rom, input)
 }
 
@@ -100,7 +100,7 @@ pub fn parse_stimulus(
     path: &Path,
     rom: &Rom,
     input: QFormat,
-) -> Result<Vec<Cycle>, StimulusError> {
+) -> Result<Vec<StimulusLine>, StimulusError> {
     parse(TextReader::new(from, STIMULUS), path, rom, input)
 }
 
@@ -109,7 +109,7 @@ fn parse(
     path: &Path,
     rom: &Rom,
     input: QFormat,
-) -> Result<Vec<Cycle>, StimulusError> {
+) -> Result<Vec<StimulusLine>, StimulusError> {
     let in_line = |line, problem| StimulusError::Line { path: path.to_owned(), line, problem };
     let refused = |error| match error {
         RecordError::Text(problem) => TextError::new(path, &STIMULUS, problem).into(),
@@ -189,7 +189,7 @@ impl Columns {
         Ok(columns)
     }
 
-    fn cycle(&self, fields: &[&str], rom: &Rom, input: QFormat) -> Result<Cycle, Wrong> {
+    fn cycle(&self, fields: &[&str], rom: &Rom, input: QFormat) -> Result<StimulusLine, Wrong> {
         let text = |place: usize| fields.get(place).copied().unwrap_or_default();
         let flag = |field, place: Option<usize>, default| match place.map(text) {
             None => Ok(default),
@@ -207,7 +207,7 @@ impl Columns {
             let x = if self.bits { bits(x, input) } else { real(x, input) };
             Case::of(rom, exponent, x.map_err(|problem| Wrong { field, problem })?)
         };
-        Ok(Cycle {
+        Ok(StimulusLine {
             case,
             valid,
             ready: flag("ready", self.ready, true)?,
@@ -221,7 +221,7 @@ impl Columns {
 /// # Errors
 /// What is wrong with the text, and what would be right.
 pub fn exponent(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
+    match decimal::real(text) {
         Ok(n) if n.is_finite() && n >= 1.0 => Ok(n),
         Ok(_) => Err(format!("{text} is not an exponent; exponents are finite numbers from 1 up")),
         Err(_) => Err(format!("{text:?} is not a number; write an exponent such as 64 or 2.5")),
@@ -233,11 +233,9 @@ pub fn exponent(text: &str) -> Result<f64, String> {
 /// # Errors
 /// What is wrong with the text, and what would be right.
 pub fn real(text: &str, input: QFormat) -> Result<i64, String> {
-    let value: f64 = text.parse().map_err(|_| {
-        format!("{text:?} is not a number; write x as a decimal such as 0.75, or use `x_bits`")
-    })?;
-    quantise(value, input, Rounding::NearestEven, Overflow::Refuse)
-        .map_err(|error| error.to_string())
+    let value = decimal::real(text)
+        .map_err(|_| format!("{text:?} is not a number; write x as a decimal such as 0.75, or use `x_bits`"))?;
+    x_bits(value, input, Overflow::Refuse).map_err(|error| error.to_string())
 }
 
 /// The field `x_bits`: a signed integer, or a word of the format as `0x…`, two's complement where it is signed.
@@ -245,8 +243,7 @@ pub fn real(text: &str, input: QFormat) -> Result<i64, String> {
 /// # Errors
 /// What is wrong with the text, and what would be right.
 pub fn bits(text: &str, input: QFormat) -> Result<i64, String> {
-    let not_bits =
-        |_| format!("{text:?} is not an integer; write the bits of x such as 8388607 or 0x7fffff");
+    let not_bits = |_| format!("{text:?} is not an integer; write the bits of x such as 8388607 or 0x7fffff");
     if let Some(digits) = text.strip_prefix("0x") {
         // A sign would be read as part of the number.
         let digits = digits.strip_prefix('+').map_or(digits, |_| "");
@@ -263,7 +260,7 @@ pub fn bits(text: &str, input: QFormat) -> Result<i64, String> {
     let (low, high) = (input.min_bits(), input.max_bits());
     Err(format!(
         "{text} does not fit {input}, whose bits are {low} to {high} (x from {} to {})",
-        decimal(low, input),
-        decimal(high, input)
+        quantise::decimal(low, input),
+        quantise::decimal(high, input)
     ))
 }

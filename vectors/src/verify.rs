@@ -9,9 +9,7 @@ use thiserror::Error;
 
 use crate::checksum::checksum;
 use crate::limits::{MAX_VECTORS, MOST_WORDS};
-use crate::manifest::{
-    EXPECTED, FAULTS, FORMAT_VERSION, MANIFEST, Manifest, NEGATIVE_CONTROL, ROM, STIMULUS, TABLE,
-};
+use crate::manifest::{EXPECTED, FAULTS, FORMAT_VERSION, MANIFEST, Manifest, NEGATIVE_CONTROL, ROM, STIMULUS, TABLE};
 use crate::memory_file::{MemoryError, read_words};
 use crate::table::{TableError, TableRow, read_table};
 use crate::text_file::{self, TextProblem};
@@ -23,15 +21,15 @@ pub enum VerifyError {
     /// A file is missing or cannot be read.
     #[error("the bundle is incomplete: cannot read {}: {cause}; write it again", path.display())]
     Io {
-        /// The file.
+        /// The path of the file that cannot be read.
         path: PathBuf,
-        /// What is wrong.
+        /// Why it cannot be read.
         cause: TextProblem,
     },
     /// The manifest is not one.
     #[error("{} is not a manifest: {cause}", path.display())]
     Manifest {
-        /// The file.
+        /// The path of the manifest.
         path: PathBuf,
         /// What is wrong, with line and column.
         cause: serde_json::Error,
@@ -39,17 +37,17 @@ pub enum VerifyError {
     /// The manifest is of another version.
     #[error("{} has format version {found}; this tool reads {FORMAT_VERSION}", path.display())]
     Version {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// Its version.
+        /// The version that the manifest says.
         found: u32,
     },
     /// The manifest does not vouch for a file of the bundle.
     #[error("{} does not list {name}", path.display())]
     NotListed {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// The file.
+        /// The name of the file that it does not list.
         name: &'static str,
     },
     /// A file is not the one that was written.
@@ -58,11 +56,11 @@ pub enum VerifyError {
          write the bundle again", path.display()
     )]
     Checksum {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Its checksum.
+        /// The SHA-256 of the file as it is.
         found: String,
-        /// The manifest's.
+        /// The SHA-256 that the manifest lists.
         expected: String,
     },
     /// A file goes on where the one that was written ends.
@@ -71,23 +69,23 @@ pub enum VerifyError {
          write the bundle again", path.display()
     )]
     Long {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
         /// Its bytes by the manifest.
         expected: u64,
     },
-    /// A memory file.
+    /// A memory file cannot be read.
     #[error(transparent)]
     Memory(#[from] MemoryError),
-    /// The table.
+    /// `vectors.csv` cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
     /// A number of lines or words is not the manifest's.
     #[error("{} has {found} vectors, the manifest says {expected}", path.display())]
     Count {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Vectors found.
+        /// The number of vectors found in the file.
         found: u64,
         /// Vectors by the manifest.
         expected: u64,
@@ -95,9 +93,9 @@ pub enum VerifyError {
     /// A field of the manifest that is out of its range.
     #[error("{}: {field}: {problem}", path.display())]
     Field {
-        /// The manifest.
+        /// The path of the manifest.
         path: PathBuf,
-        /// The field.
+        /// The name of the manifest's field.
         field: &'static str,
         /// What is wrong, and what would be right.
         problem: String,
@@ -108,11 +106,11 @@ pub enum VerifyError {
     /// A memory file and the table say different things.
     #[error("{}: word {index} is {found:x}, but {TABLE} says {expected:x}", path.display())]
     Disagree {
-        /// The memory file.
+        /// The path of the memory file.
         path: PathBuf,
         /// The word, counted from 0.
         index: usize,
-        /// The word.
+        /// The word that the memory file has.
         found: UBig,
         /// The word by the table.
         expected: u128,
@@ -123,7 +121,7 @@ pub enum VerifyError {
          {corrupted} there instead of {expected}", path.display()
     )]
     Control {
-        /// The file.
+        /// The path of the negative control.
         path: PathBuf,
         /// How many words differ.
         differing: usize,
@@ -139,11 +137,11 @@ pub enum VerifyError {
 /// A bundle read back.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verified {
-    /// Its manifest.
+    /// The bundle's manifest.
     pub manifest: Manifest,
     /// Its cases, with what is expected of them.
     pub vectors: Vec<TableRow>,
-    /// Its ROM image.
+    /// The words of the ROM image, by address.
     pub rom: Vec<UBig>,
 }
 
@@ -180,17 +178,12 @@ pub fn verify(directory: impl AsRef<Path>) -> Result<Verified, VerifyError> {
 }
 
 /// That the negative control differs from the expected answers in the one word of the manifest.
-fn check_control(
-    directory: &Path,
-    manifest: &Manifest,
-    vectors: &[TableRow],
-) -> Result<(), VerifyError> {
+fn check_control(directory: &Path, manifest: &Manifest, vectors: &[TableRow]) -> Result<(), VerifyError> {
     let path = directory.join(NEGATIVE_CONTROL);
     let (layout, record) = (&manifest.words.expected, &manifest.negative_control);
     let found = read_words(&path, layout.width, vectors.len())?;
-    let right = vectors
-        .iter()
-        .map(|row| UBig::from(layout.pack(&[row.expected.status.into(), row.expected.intensity])));
+    let right =
+        vectors.iter().map(|row| UBig::from(layout.pack(&[row.expected.status.into(), row.expected.intensity])));
     let differing: Vec<(usize, UBig, UBig)> = found
         .into_iter()
         .zip(right)
@@ -200,9 +193,7 @@ fn check_control(
         .collect();
     let hex = |word: &UBig| format!("{word:00$x}", layout.digits());
     let as_recorded = differing.first().is_some_and(|(index, found, right)| {
-        *index as u64 == record.vector
-            && hex(found) == record.corrupted
-            && hex(right) == record.expected
+        *index as u64 == record.vector && hex(found) == record.corrupted && hex(right) == record.expected
     });
     if differing.len() == 1 && as_recorded {
         return Ok(());
@@ -244,10 +235,7 @@ fn read_manifest(directory: &Path) -> Result<Manifest, VerifyError> {
 /// Every field that sizes memory or shifts bits is in its range: the counts, and the layouts of words.
 fn check_sizes(manifest: &Manifest) -> Result<(), (&'static str, String)> {
     let Manifest { counts, words, .. } = manifest;
-    let counted = [
-        ("counts.vectors", counts.vectors, MAX_VECTORS),
-        ("counts.rom_words", counts.rom_words, MOST_WORDS),
-    ];
+    let counted = [("counts.vectors", counts.vectors, MAX_VECTORS), ("counts.rom_words", counts.rom_words, MOST_WORDS)];
     for (field, count, most) in counted {
         if !(1..=most).contains(&count) {
             return Err((field, format!("{count}; a bundle has 1 to {most}")));
@@ -265,11 +253,7 @@ fn check_sizes(manifest: &Manifest) -> Result<(), (&'static str, String)> {
     Ok(())
 }
 
-fn check_file(
-    directory: &Path,
-    manifest: &Manifest,
-    name: &'static str,
-) -> Result<(), VerifyError> {
+fn check_file(directory: &Path, manifest: &Manifest, name: &'static str) -> Result<(), VerifyError> {
     let path = directory.join(name);
     let Some(expected) = manifest.files.get(name) else {
         return Err(VerifyError::NotListed { path: directory.join(MANIFEST), name });
@@ -278,14 +262,10 @@ fn check_file(
     let beyond = expected.bytes.saturating_add(1);
     match File::open(&path).and_then(|file| checksum(file.take(beyond))) {
         Err(cause) => Err(VerifyError::Io { path, cause: cause.into() }),
-        Ok(found) if found.bytes == beyond => {
-            Err(VerifyError::Long { path, expected: expected.bytes })
+        Ok(found) if found.bytes == beyond => Err(VerifyError::Long { path, expected: expected.bytes }),
+        Ok(found) if found != *expected => {
+            Err(VerifyError::Checksum { path, found: found.sha256, expected: expected.sha256.clone() })
         }
-        Ok(found) if found != *expected => Err(VerifyError::Checksum {
-            path,
-            found: found.sha256,
-            expected: expected.sha256.clone(),
-        }),
         Ok(_) => Ok(()),
     }
 }

@@ -3,6 +3,8 @@
 `timescale 1ns / 1ps
 `default_nettype none
 
+// The modules' loops read the vectors; the single constants beside them are for people and testbenches.
+// verilator lint_off UNUSEDPARAM
 package blysk_pkg;
 <%- for section in sections %>
 
@@ -13,5 +15,6 @@ package blysk_pkg;
 <%- endfor %>
 
 endpackage
+// verilator lint_on UNUSEDPARAM
 
 `default_nettype wire

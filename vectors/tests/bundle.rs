@@ -45,8 +45,7 @@ fn what_is_read_back_is_the_golden_model() {
     ] {
         write(&design, strategy, count, place.path());
         let read = verify(place.path()).unwrap();
-        let chosen: Vec<_> =
-            Bundle::new(&design, strategy, count, 1, "").unwrap().samples().collect();
+        let chosen: Vec<_> = Bundle::new(&design, strategy, count, 1, "").unwrap().samples().collect();
         assert_eq!(read.vectors.len(), chosen.len());
         for ((index, row), sample) in (0..).zip(&read.vectors).zip(&chosen) {
             assert_eq!((row.index, row.case), (index, sample.case));
@@ -104,11 +103,11 @@ fn the_table_shows_every_stage() {
             for register in datapath.registers(rank).iter().filter(|register| register.computed) {
                 let name = datapath.register_name(rank, register);
                 if column(&name).is_none() {
-                    let port = ["address", "x", "intensity", "status"].contains(&register.name);
+                    let port = ["address", "x", "intensity", "status"].contains(&register.name());
                     assert!(port && (rank == 0 || rank + 1 == passage.len()), "{name}");
                     continue;
                 }
-                let bits = (register.bits)(held);
+                let bits = register.bits(held);
                 assert_eq!(field(&name), bits.to_string(), "{name}");
                 let hex = field(&format!("{name}_hex")).strip_prefix("0x").unwrap();
                 let format: QFormat = register.format;
@@ -139,8 +138,7 @@ fn the_table_shows_every_stage() {
 #[test]
 fn a_changed_bundle_is_refused() {
     let design = common::small();
-    for (index, name) in [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE].into_iter().enumerate()
-    {
+    for (index, name) in [ROM, STIMULUS, EXPECTED, NEGATIVE_CONTROL, TABLE].into_iter().enumerate() {
         let place = tempfile::tempdir().unwrap();
         write(&design, Strategy::Mixed, 50, place.path());
         verify(place.path()).unwrap();
@@ -152,17 +150,11 @@ fn a_changed_bundle_is_refused() {
         flipped[middle] ^= 1;
         fs::write(&path, &flipped).unwrap();
         let error = verify(place.path()).unwrap_err();
-        assert!(
-            matches!(&error, VerifyError::Checksum { path, .. } if path.ends_with(name)),
-            "{error}"
-        );
+        assert!(matches!(&error, VerifyError::Checksum { path, .. } if path.ends_with(name)), "{error}");
 
         fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
         let error = verify(place.path()).unwrap_err();
-        assert!(
-            matches!(&error, VerifyError::Checksum { path, .. } if path.ends_with(name)),
-            "{error}"
-        );
+        assert!(matches!(&error, VerifyError::Checksum { path, .. } if path.ends_with(name)), "{error}");
 
         fs::remove_file(&path).unwrap();
         let error = verify(place.path()).unwrap_err();
@@ -194,10 +186,7 @@ fn files_that_disagree_are_refused() {
     change(EXPECTED, "\n080\n", "\n07f\n");
     reseal(EXPECTED);
     let error = verify(place.path()).unwrap_err();
-    assert!(
-        matches!(&error, VerifyError::Disagree { path, index: 15, .. } if path.ends_with(EXPECTED)),
-        "{error}"
-    );
+    assert!(matches!(&error, VerifyError::Disagree { path, index: 15, .. } if path.ends_with(EXPECTED)), "{error}");
     change(EXPECTED, "\n07f\n", "\n");
     reseal(EXPECTED);
     let error = verify(place.path()).unwrap_err().to_string();
@@ -229,12 +218,8 @@ fn a_bundle_that_fails_half_way_leaves_nothing() {
     fs::create_dir(place.path().join(TABLE)).unwrap();
     let bundle = Bundle::new(&design, Strategy::Mixed, 50, 1, "c").unwrap();
     let error = bundle.write_to(place.path()).unwrap_err();
-    assert!(
-        matches!(error, BundleError::Output(_)) && error.to_string().contains(TABLE),
-        "{error}"
-    );
-    let left: Vec<_> =
-        fs::read_dir(place.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert!(matches!(error, BundleError::Output(_)) && error.to_string().contains(TABLE), "{error}");
+    let left: Vec<_> = fs::read_dir(place.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left, [TABLE]);
 }
 
@@ -289,15 +274,11 @@ fn the_negative_control_is_wrong_once() {
         let right = words(&place.path().join(EXPECTED));
         let wrong = words(&place.path().join(NEGATIVE_CONTROL));
         assert_eq!(right.len(), wrong.len());
-        let differing: Vec<usize> =
-            (0..right.len()).filter(|&index| right[index] != wrong[index]).collect();
+        let differing: Vec<usize> = (0..right.len()).filter(|&index| right[index] != wrong[index]).collect();
         assert_eq!(differing, [record.vector as usize]);
-        assert_eq!(
-            (&right[differing[0]], &wrong[differing[0]]),
-            (&record.expected, &record.corrupted)
-        );
-        let [expected, corrupted] = [&record.expected, &record.corrupted]
-            .map(|word| u64::from_str_radix(word, 16).unwrap());
+        assert_eq!((&right[differing[0]], &wrong[differing[0]]), (&record.expected, &record.corrupted));
+        let [expected, corrupted] =
+            [&record.expected, &record.corrupted].map(|word| u64::from_str_radix(word, 16).unwrap());
         assert_eq!(expected ^ corrupted, 1 << record.bit);
         // The intensity is the lowest 8 bits of the word.
         assert!(record.bit < 8);
@@ -314,8 +295,7 @@ fn a_negative_control_that_controls_nothing_is_refused() {
     let design = common::small();
     write(&design, Strategy::Mixed, 50, place.path());
     let path = |name: &str| place.path().join(name);
-    let manifest: vectors::Manifest =
-        serde_json::from_str(&fs::read_to_string(path(MANIFEST)).unwrap()).unwrap();
+    let manifest: vectors::Manifest = serde_json::from_str(&fs::read_to_string(path(MANIFEST)).unwrap()).unwrap();
     let refused = |control: &str, found: usize| {
         fs::write(path(NEGATIVE_CONTROL), control).unwrap();
         let mut manifest = manifest.clone();
@@ -324,10 +304,7 @@ fn a_negative_control_that_controls_nothing_is_refused() {
         manifest.files.insert(NEGATIVE_CONTROL.to_owned(), checksum);
         fs::write(path(MANIFEST), manifest.to_json()).unwrap();
         let error = verify(place.path()).unwrap_err();
-        assert!(
-            matches!(&error, VerifyError::Control { differing, .. } if *differing == found),
-            "{error}"
-        );
+        assert!(matches!(&error, VerifyError::Control { differing, .. } if *differing == found), "{error}");
     };
     let right = words(&path(EXPECTED));
     let wrong = words(&path(NEGATIVE_CONTROL));

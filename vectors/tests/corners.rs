@@ -7,7 +7,7 @@ use std::collections::{HashMap, HashSet};
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
 use hw_model::quantise::real;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 use vectors::reference::reference;
 use vectors::stimulus::corners::Corners;
 use vectors::{Kind, Sample};
@@ -49,10 +49,9 @@ fn every_row_has_its_edges() {
         for (address, row) in design.rows().iter().enumerate() {
             let xs = xs(&rows[&(address as u32)]);
             let q = input.one() - (row.epicentre * input.one() as f64).round() as i64;
-            let mut wanted =
-                vec![0, 1, greatest - 1, greatest, greatest + 1, q - 1, q, q + 1, input.max_bits()];
+            let mut wanted = vec![0, 1, greatest - 1, greatest, greatest + 1, q - 1, q, q + 1, input.max_bits()];
             wanted.extend([-1, input.min_bits()]);
-            if design.datapath().stages().is_some() {
+            if design.datapath().degree() > 0 {
                 wanted.extend([row.cut - 1, row.cut, row.cut + 1]);
             }
             for x in wanted.into_iter().filter(|&x| input.holds(x.into())) {
@@ -72,18 +71,17 @@ fn every_register_reaches_its_ends() {
             if address as usize >= design.rom().depth() {
                 continue;
             }
-            let passages = |xs: Vec<i64>| -> Vec<Vec<Signals>> {
-                xs.into_iter().map(|x| datapath.passage(address, x)).collect()
-            };
+            let passages =
+                |xs: Vec<i64>| -> Vec<Vec<Signals>> { xs.into_iter().map(|x| datapath.passage(address, x)).collect() };
             let all = passages(range(&design).collect());
             let corners = passages(xs(&samples).into_iter().collect());
             for rank in 1..datapath.rank_count() {
                 for register in datapath.registers(rank) {
-                    if !register.computed || matches!(register.name, "region" | "status") {
+                    if !register.computed || matches!(register.name(), "region" | "status") {
                         continue;
                     }
                     let ends = |passages: &[Vec<Signals>]| {
-                        let bits = passages.iter().map(|ranks| (register.bits)(&ranks[rank]));
+                        let bits = passages.iter().map(|ranks| register.bits(&ranks[rank]));
                         (bits.clone().min(), bits.max())
                     };
                     assert_eq!(ends(&corners), ends(&all), "{address} {rank} {register:?}");
@@ -106,13 +104,11 @@ fn the_worst_error_of_each_part_is_there() {
                 let power = reference(row.exponent, x, config.input);
                 (real(intensity, config.output) - power).abs()
             };
-            let has_polynomial = design.datapath().stages().is_some();
+            let has_polynomial = design.datapath().degree() > 0;
             let above = |x: i64| has_polynomial && x >= row.cut;
             for part in [true, false] {
                 let worst = |xs: &mut dyn Iterator<Item = i64>| {
-                    xs.filter(|&x| range(&design).contains(&x) && above(x) == part)
-                        .map(error)
-                        .fold(0.0, f64::max)
+                    xs.filter(|&x| range(&design).contains(&x) && above(x) == part).map(error).fold(0.0, f64::max)
                 };
                 let found = worst(&mut xs(&samples).into_iter());
                 assert_eq!(found, worst(&mut range(&design)), "{} {address} {part}", config.name);
@@ -127,17 +123,17 @@ fn a_tie_is_a_tie() {
     let design = common::small();
     let formats = design.datapath().formats().polynomial.unwrap();
     let field = |name| design.rom().layout().field(name).unwrap().format.fraction_bits();
-    let (c3, c2) = (field(FieldName::C3), field(FieldName::C2));
+    let (c3, c2) = (field(Register::C(0, 3)), field(Register::C(0, 2)));
     let common_place = (c3 + formats.v.fraction_bits()).max(c2);
-    let drop = common_place - formats.t1.fraction_bits();
+    let drop = common_place - formats.t()[0].fraction_bits();
     assert!(drop > 1, "the small design must round t1");
     let mut ties = 0;
     for (address, samples) in by_row(&design) {
         let Some(row) = design.rom().row(address) else { continue };
         let distance = |x: i64| {
-            let product = i128::from(row.get(FieldName::C3)) * i128::from(x);
+            let product = i128::from(row.get(Register::C(0, 3))) * i128::from(x);
             let product = product << (common_place - c3 - formats.v.fraction_bits());
-            let sum = product + (i128::from(row.get(FieldName::C2)) << (common_place - c2));
+            let sum = product + (i128::from(row.get(Register::C(0, 2))) << (common_place - c2));
             (sum.rem_euclid(1 << drop) - (1 << (drop - 1))).abs()
         };
         let cut = design.datapath().front_end().cut(row);
@@ -181,9 +177,9 @@ fn the_divider_has_both_its_ends() {
         let datapath = design.datapath();
         for (address, samples) in by_row(&design) {
             let Some(row) = design.rows().get(address as usize) else { continue };
-            let end = match datapath.stages() {
-                Some(_) => row.cut - 1,
-                None => *range(&design).end(),
+            let end = match datapath.degree() {
+                1.. => row.cut - 1,
+                0 => *range(&design).end(),
             };
             let quotient = |x: i64| datapath.evaluate(address, x).division.digits;
             let zero = (0..=end).filter(|&x| quotient(x) == 0).max().unwrap();
@@ -235,7 +231,6 @@ fn too_small_a_count_is_shared_over_the_rows() {
         assert_eq!(rows, depth, "{kind}");
     }
     // Fewer than rows: spread over all of them, the first and the last included.
-    let addresses: Vec<u32> =
-        Corners::new(&design, 4).samples().iter().map(|sample| sample.case.address).collect();
+    let addresses: Vec<u32> = Corners::new(&design, 4).samples().iter().map(|sample| sample.case.address).collect();
     assert_eq!(addresses, [0, 85, 170, 255]);
 }

@@ -7,11 +7,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use hw_model::datapath::{Block, Datapath, Signals};
 use hw_model::design::Design;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 use vectors::faults::{
-    Compact, Defect, Fault, FieldFault, HANDSHAKE, Model, OneByOne, RowFaults, Screen, Verdict,
-    Workers, field_faults, pipeline_faults,
+    Compact, Defect, Fault, FaultFate, FieldFault, HANDSHAKE, Mask, Model, OneByOne, RowFaults, Screen, Workers,
+    field_faults, line_name, pipeline_faults,
 };
 use vectors::reference::Expected;
 use vectors::stimulus::Stimulus;
@@ -20,9 +20,7 @@ use vectors::{Case, Strategy};
 fn every_input(design: &Design) -> Vec<Case> {
     let (rom, input) = (design.rom(), design.config().input);
     (0..1 << rom.address_width())
-        .flat_map(|address| {
-            (input.min_bits()..=input.max_bits()).map(move |x| Case::at(rom, address, x))
-        })
+        .flat_map(|address| (input.min_bits()..=input.max_bits()).map(move |x| Case::at(rom, address, x)))
         .collect()
 }
 
@@ -37,7 +35,7 @@ fn kind(fault: &Fault) -> String {
     match fault {
         Fault::Field(FieldFault { field, step, .. }) => format!("{field}{step:+}"),
         Fault::Swap(_) => "swap".to_owned(),
-        Fault::Rounding(line, _) => format!("rounding:{line}"),
+        Fault::Rounding(line, _) => format!("rounding:{}", line_name(*line)),
         Fault::Register(_, register, Defect::Short) => format!("short:{}", register.name()),
         Fault::Register(_, register, Defect::LowBitStuck) => format!("stuck:{}", register.name()),
         Fault::Logic(logic) => logic.to_string(),
@@ -57,9 +55,8 @@ fn the_compact_set_kills_whatever_can_be_killed() {
         assert_eq!(faults, every_fault(datapath));
         let model = Model::new(datapath);
         let inputs = every_input(&design);
-        let right: Vec<Expected> =
-            inputs.iter().map(|&case| Expected::of(datapath, case)).collect();
-        for &Verdict { fault, killed_by } in set.verdicts() {
+        let right: Vec<Expected> = inputs.iter().map(|&case| Expected::of(datapath, case)).collect();
+        for &FaultFate { fault, killed_by } in set.verdicts() {
             let faulty = model.faulty(fault);
             let is_killed = |case: Case| faulty.answer(case) != Expected::of(datapath, case);
             let by = set.samples().iter().position(|sample| is_killed(sample.case));
@@ -98,10 +95,9 @@ fn a_row_cannot_do_with_fewer() {
     for address in 0..design.rom().depth() as u32 {
         let mut row = RowFaults::new(design.datapath(), address);
         let input = design.config().input;
-        let (xs, mut masks) =
-            ((input.min_bits()..=input.max_bits()).collect::<Vec<i64>>(), Vec::new());
+        let (xs, mut masks) = ((input.min_bits()..=input.max_bits()).collect::<Vec<i64>>(), Vec::new());
         row.killed(&xs, row.all(), &mut masks);
-        let sorts: BTreeSet<u32> = masks.into_iter().filter(|&mask| mask != 0).collect();
+        let sorts: BTreeSet<Mask> = masks.into_iter().filter(|&mask| mask != 0).collect();
         let all = sorts.iter().fold(0, |set, mask| set | mask);
         // Sets that can be had with one x, with two, …
         let mut reached = BTreeSet::from([0]);
@@ -164,11 +160,11 @@ fn a_fault_is_what_its_name_says() {
     let design = common::small();
     let datapath = design.datapath();
     let model = Model::new(datapath);
-    let cut = datapath.row(2).get(FieldName::Cut);
-    let fault = FieldFault { address: 2, field: FieldName::Cut, step: 1 };
+    let cut = datapath.row(2).get(Register::Cut);
+    let fault = FieldFault { address: 2, field: Register::Cut, step: 1 };
     let of_row = model.faulty(Fault::Field(fault));
     let mut held: Signals = datapath.fetch(2, cut);
-    held.row.set(FieldName::Cut, cut + 1);
+    held.row.set(Register::Cut, cut + 1);
     for rank in 1..datapath.rank_count() {
         held = datapath.advance(rank, &held);
     }
@@ -198,7 +194,7 @@ fn every_line_is_tried_in_every_other_mode() {
     for fault in pipeline_faults(common::preset("paper").datapath()) {
         if let Fault::Rounding(line, mode) = fault {
             assert_ne!(mode, Rounding::NearestUp);
-            *modes.entry(line.to_string()).or_default() += 1;
+            *modes.entry(line_name(line).to_owned()).or_default() += 1;
         }
     }
     let wanted = ["divisor", "quotient", "t1", "t2", "t3"].map(|line| (line.to_owned(), 3));
@@ -212,11 +208,12 @@ fn the_default_bundle_kills_what_a_row_can_have() {
         let set = Compact::search(&design, &OneByOne);
         let stimulus = Stimulus::new(&design, Strategy::Mixed, 400, 1);
         let model = Model::new(design.datapath());
-        let killable = set.verdicts().iter().filter(|verdict| {
-            matches!(verdict.fault, Fault::Field(_)) && verdict.killed_by.is_some()
-        });
+        let killable = set
+            .verdicts()
+            .iter()
+            .filter(|verdict| matches!(verdict.fault, Fault::Field(_)) && verdict.killed_by.is_some());
         let mut count = 0;
-        for Verdict { fault, .. } in killable {
+        for FaultFate { fault, .. } in killable {
             let faulty = model.faulty(*fault);
             let differs = |case| faulty.answer(case) != Expected::of(design.datapath(), case);
             let mut samples = stimulus.targets().samples().iter();
@@ -255,16 +252,14 @@ fn a_screen_leaves_out_nothing_that_shows() {
         let datapath = design.datapath();
         let model = Model::new(datapath);
         let xs: Vec<i64> = (0..=datapath.front_end().greatest).collect();
-        let faulty: Vec<_> =
-            pipeline_faults(datapath).into_iter().map(|fault| model.faulty(fault)).collect();
+        let faulty: Vec<_> = pipeline_faults(datapath).into_iter().map(|fault| model.faulty(fault)).collect();
         for address in 0..design.rom().depth() as u32 {
             let row = datapath.row(address);
             let passages: Vec<_> = xs.iter().map(|&x| datapath.passage(address, x)).collect();
             let mut screen = Screen::default();
             screen.take(datapath, &row, &xs);
             for faulty in &faulty {
-                let suspects: BTreeSet<i64> =
-                    screen.suspects(faulty, &row, &xs).into_iter().collect();
+                let suspects: BTreeSet<i64> = screen.suspects(faulty, &row, &xs).into_iter().collect();
                 left_out += xs.len() - suspects.len();
                 for (x, passage) in xs.iter().zip(&passages) {
                     let is_killed = faulty.is_killed(passage);

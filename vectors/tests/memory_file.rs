@@ -5,9 +5,7 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use vectors::limits::MOST_NUMBERS;
-use vectors::memory_file::{
-    Header, LineProblem, MemoryError, Value, parse, read_words, write_header, write_word,
-};
+use vectors::memory_file::{Header, LineProblem, MemoryError, Value, parse, read_words, write_header, write_word};
 use vectors::packing::{WordField, WordLayout};
 
 fn layout(width: u32) -> WordLayout {

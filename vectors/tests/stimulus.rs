@@ -110,8 +110,7 @@ fn targets_come_first_and_once() {
 fn the_even_grid_is_even() {
     let design = common::preset("compact");
     let one = design.config().input.one();
-    let mut xs: Vec<i64> =
-        samples(&design, Strategy::Even, 1024, 0).iter().map(|sample| sample.case.x).collect();
+    let mut xs: Vec<i64> = samples(&design, Strategy::Even, 1024, 0).iter().map(|sample| sample.case.x).collect();
     xs.sort_unstable();
     let wanted: Vec<i64> = (0..1024).map(|i| (2 * i * one + 1023) / 2046).collect();
     assert_eq!(xs, wanted);
@@ -133,8 +132,7 @@ fn random_cases_reach_every_part_of_the_input() {
     let depth = design.rom().depth() as u32;
     let samples = samples(&design, Strategy::Random, 4096, 1);
     let one = design.config().input.one();
-    let count =
-        |holds: &dyn Fn(&Case) -> bool| samples.iter().filter(|sample| holds(&sample.case)).count();
+    let count = |holds: &dyn Fn(&Case) -> bool| samples.iter().filter(|sample| holds(&sample.case)).count();
     // Expected: 1/64 without a word after the first round, 1/16 above 1, 3/8 at least above the cut.
     assert!((30..100).contains(&count(&|case| case.address >= depth)));
     assert!((180..340).contains(&count(&|case| case.x > one)));

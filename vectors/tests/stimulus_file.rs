@@ -5,9 +5,9 @@ mod common;
 use std::path::Path;
 
 use proptest::prelude::*;
-use vectors::stimulus_file::{Cycle, StimulusError, parse_stimulus};
+use vectors::stimulus_file::{StimulusError, StimulusLine, parse_stimulus};
 
-fn parse(text: impl AsRef<[u8]>) -> Result<Vec<Cycle>, StimulusError> {
+fn parse(text: impl AsRef<[u8]>) -> Result<Vec<StimulusLine>, StimulusError> {
     // n in 1, 2, 3.5, 8; x in Q2.8
     let design = common::small();
     parse_stimulus(text.as_ref(), Path::new("in.csv"), design.rom(), design.config().input)
@@ -104,10 +104,7 @@ fn a_wrong_file_is_named() {
         assert!(message.starts_with(wanted), "{text:?}: {message}");
     }
     let message = parse(b"n,x\n1,\xff\n").unwrap_err().to_string();
-    assert!(
-        message.starts_with("in.csv:2: the line is not UTF-8: its byte 3 is 0xff"),
-        "{message}"
-    );
+    assert!(message.starts_with("in.csv:2: the line is not UTF-8: its byte 3 is 0xff"), "{message}");
     let cycles = parse("\u{feff}\"n\",\"x\"\r\n\"2\",\"0.5\"\r\n").unwrap();
     assert_eq!((cycles[0].case.address, cycles[0].case.x), (1, 128));
 }
@@ -121,22 +118,13 @@ fn other_separators_and_decimal_commas_are_named() {
         ("n\tx\n1\t0.5\n", "in.csv:1: the fields are separated by tabs"),
         ("n|x\n", "in.csv:1: the fields are separated by `|`"),
         ("sep=;\nn;x\n", "in.csv:1: `sep=` is no column"),
-        (
-            "n,x\n1;0.5\n",
-            "in.csv:2: there are 1 fields, the first line names 2 columns: the fields",
-        ),
+        ("n,x\n1;0.5\n", "in.csv:2: there are 1 fields, the first line names 2 columns: the fields"),
         (
             "n,x\n1,0,5\n",
             "in.csv:2: there are 3 fields, the first line names 2 columns: is `0,5` a decimal comma? write 0.5",
         ),
-        (
-            "n,x\n64,\"0,75\"\n",
-            "in.csv:2: there are 3 fields, the first line names 2 columns: is `0,75`",
-        ),
-        (
-            "n,x\n1,-0,5\n",
-            "in.csv:2: there are 3 fields, the first line names 2 columns: is `-0,5`",
-        ),
+        ("n,x\n64,\"0,75\"\n", "in.csv:2: there are 3 fields, the first line names 2 columns: is `0,75`"),
+        ("n,x\n1,-0,5\n", "in.csv:2: there are 3 fields, the first line names 2 columns: is `-0,5`"),
     ] {
         let message = parse(text).unwrap_err().to_string();
         assert!(message.starts_with(wanted), "{text:?}: {message}");

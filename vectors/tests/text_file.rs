@@ -5,9 +5,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use proptest::prelude::*;
-use vectors::text_file::{
-    ANSWER_LOG, CONFIGURATION, MESH, TextKind, TextProblem, TextReader, read,
-};
+use vectors::text_file::{ANSWER_LOG, CONFIGURATION, MESH, TextKind, TextProblem, TextReader, read};
 
 const SMALL: TextKind = TextKind { most_bytes: 100, most_line_bytes: 20, ..CONFIGURATION };
 
@@ -31,8 +29,7 @@ fn in_pieces(bytes: &[u8], size: usize, kind: TextKind) -> Result<String, TextPr
 }
 
 fn text(bytes: impl AsRef<[u8]>, kind: TextKind) -> Result<String, String> {
-    let of_size =
-        |size| in_pieces(bytes.as_ref(), size, kind).map_err(|problem| problem.to_string());
+    let of_size = |size| in_pieces(bytes.as_ref(), size, kind).map_err(|problem| problem.to_string());
     let whole = of_size(1 << 20);
     for size in [1, 2, 3, 7] {
         assert_eq!(of_size(size), whole, "{size} bytes at a time");
@@ -42,8 +39,7 @@ fn text(bytes: impl AsRef<[u8]>, kind: TextKind) -> Result<String, String> {
 
 #[test]
 fn marks_and_line_ends_do_not_count() {
-    for bytes in ["a\nb\n\nc", "\u{feff}a\nb\n\nc", "\u{feff}\u{feff}a\r\nb\r\n\r\nc", "a\rb\r\rc"]
-    {
+    for bytes in ["a\nb\n\nc", "\u{feff}a\nb\n\nc", "\u{feff}\u{feff}a\r\nb\r\n\r\nc", "a\rb\r\rc"] {
         assert_eq!(text(bytes, SMALL).unwrap(), "a\nb\n\nc", "{bytes:?}");
     }
     assert_eq!(text("\u{feff}", SMALL).unwrap(), "");
@@ -86,10 +82,7 @@ fn what_is_no_text_has_its_line() {
         (b"ab\r\ncd\r\n\xe9f\n", "line 3: the line is not UTF-8: its byte 1 is 0xe9"),
         (b"a\rbc\xc3\xa4\xff", "line 2: the line is not UTF-8: its byte 5 is 0xff"),
         (b"a\nb\xe2\x82", "line 2: the line is not UTF-8: its byte 2 is 0xe2"),
-        (
-            b"12345678901234567890\n123456789012345678901\n",
-            "line 2: the line has more than 20 bytes",
-        ),
+        (b"12345678901234567890\n123456789012345678901\n", "line 2: the line has more than 20 bytes"),
     ] {
         let error = text(bytes, SMALL).unwrap_err();
         assert!(error.starts_with(said), "{error}");
@@ -108,10 +101,9 @@ fn names_in_latin_1_are_read_where_only_numbers_count() {
 /// Without end, and without much memory: refused at once.
 #[test]
 fn a_source_without_end_is_refused() {
-    for (endless, said) in [
-        (&b"\0"[..], "line 1: there is a byte of 0"),
-        (b"x", "line 1: the line has more than 1048576 bytes"),
-    ] {
+    for (endless, said) in
+        [(&b"\0"[..], "line 1: there is a byte of 0"), (b"x", "line 1: the line has more than 1048576 bytes")]
+    {
         let source = endless.repeat(1 << 16);
         let source = io::repeat(0).take(1 << 12).chain(Pieces(&source, 4096)).take(1 << 21);
         let source: Box<dyn Read> = match endless {

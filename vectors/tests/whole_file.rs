@@ -9,8 +9,7 @@ use vectors::{OutputError, OutputSet, Staging, WholeFile};
 
 fn names(directory: &Path) -> Vec<String> {
     let entries = fs::read_dir(directory).unwrap();
-    let mut names: Vec<String> =
-        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }
@@ -161,9 +160,7 @@ fn links_are_followed_and_stay() {
     let at = |name: &str| place.path().join(name);
     fs::create_dir(at("real")).unwrap();
     fs::write(at("real/file"), "old").unwrap();
-    for (link, to) in
-        [("link", "real/file"), ("again", "link"), ("null", "/dev/null"), ("none", "nowhere")]
-    {
+    for (link, to) in [("link", "real/file"), ("again", "link"), ("null", "/dev/null"), ("none", "nowhere")] {
         symlink(to, at(link)).unwrap();
     }
     for link in ["link", "again"] {
@@ -260,10 +257,7 @@ fn a_directory_that_another_set_makes_meanwhile_is_shared() {
     assert_eq!(names(home.path()), ["new"]);
     assert_eq!(names(&home.path().join("new")), ["a", "b", "deep"]);
     for directory in ["new/a", "new/b", "new/deep/c"] {
-        assert_eq!(
-            fs::read_to_string(home.path().join(directory).join("file")).unwrap(),
-            directory
-        );
+        assert_eq!(fs::read_to_string(home.path().join(directory).join("file")).unwrap(), directory);
     }
 }
 

@@ -6,18 +6,18 @@ module clamp_proof (
   input logic                                load_i,
   input logic [blysk_pkg::REGION_WIDTH-1:0]  region_i,
   input logic [blysk_pkg::STATUS_WIDTH-1:0]  status_i,
-  input logic [blysk_pkg::T3_WIDTH-1:0]      t3_i,
+  input logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0]      t_i,
   input logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_i,
   input logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_i
 );
 
-  localparam int WIDE = blysk_pkg::T3_WIDTH + blysk_pkg::DIGITS_WIDTH + blysk_pkg::OUTPUT_WIDTH + 4;
+  localparam int WIDE = blysk_pkg::POLYNOMIAL_WIDTH + blysk_pkg::DIGITS_WIDTH + blysk_pkg::OUTPUT_WIDTH + 4;
   localparam logic signed [WIDE-1:0] GREATEST = WIDE'(blysk_pkg::OUTPUT_GREATEST);
 
   logic [blysk_pkg::OUTPUT_WIDTH-1:0] intensity;
   logic [blysk_pkg::STATUS_WIDTH-1:0] status;
   blysk_clamp clamp (
-    .clk_i, .load_i, .region_i, .status_i, .t3_i, .remainder_i, .digits_i,
+    .clk_i, .load_i, .region_i, .status_i, .t_i, .remainder_i, .digits_i,
     .intensity_o(intensity), .status_o(status)
   );
 
@@ -35,7 +35,7 @@ module clamp_proof (
   always_comb begin
     case (region_i)
       blysk_pkg::REGION_POLYNOMIAL: begin
-        value = blysk_pkg::T3_SIGNED != 0 ? WIDE'($signed(t3_i)) : WIDE'(t3_i);
+        value = blysk_pkg::POLYNOMIAL_SIGNED != 0 ? WIDE'($signed(t_i)) : WIDE'(t_i);
         if (blysk_pkg::HAS_POLYNOMIAL == 0) value = '0;
       end
       blysk_pkg::REGION_TAIL: value = blysk_pkg::HAS_TAIL != 0 ? quotient : '0;

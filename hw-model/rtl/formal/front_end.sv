@@ -14,30 +14,27 @@ module front_end_proof #(
 
   // ---- A row --------------------------------------------------------------------------------------
   logic [blysk_pkg::ROM_WIDTH-1:0]   words[0:blysk_pkg::ROM_DEPTH-1];
-  logic [blysk_pkg::CUT_WIDTH-1:0]   cut;
-  logic [blysk_pkg::SHIFT_WIDTH-1:0] shift;
-  logic [blysk_pkg::HAND_OVER_WIDTH-1:0]   hand_over;
-  logic [blysk_pkg::SHIFT_OUTER_WIDTH-1:0] shift_outer;
+  logic [blysk_pkg::FIELDS_WIDTH-1:0] of_row, fields;
+  logic [blysk_pkg::CUT_WIDTH-1:0]    cut;
   initial $readmemh(ROM_FILE, words);
 
-  blysk_fields fields (
-    .word_i(words[row_i]), .cut_o(cut), .shift_o(shift),
-    .c3_o(), .c2_o(), .c1_o(), .c0_o(), .tail_a_o(), .tail_b_o(),
-    .c3_outer_o(), .c2_outer_o(), .c1_outer_o(), .c0_outer_o(),
-    .hand_over_o(hand_over), .shift_outer_o(shift_outer)
-  );
+  blysk_fields all (.word_i(words[row_i]), .fields_o(of_row));
+  assign cut = of_row[blysk_pkg::CUT_PLACE+:blysk_pkg::CUT_WIDTH];
+  always_comb begin
+    fields = of_row;
+    if (blysk_pkg::HAS_POLYNOMIAL != 0) fields[blysk_pkg::CUT_PLACE+:blysk_pkg::CUT_WIDTH] = cut;
+  end
 
   // ---- The front end ------------------------------------------------------------------------------
   logic [blysk_pkg::STATUS_WIDTH-1:0] fetch_status, status;
   logic [blysk_pkg::V_WIDTH-1:0]      v;
   logic [blysk_pkg::X_WIDTH-1:0]      tail_x;
   logic [blysk_pkg::REGION_WIDTH-1:0] region;
-  logic                               outer;
+  logic [blysk_pkg::SEGMENTS-1:0]     beyond;
   assign fetch_status = blysk_pkg::STATUS_WIDTH'(no_word_i) << blysk_pkg::STATUS_NO_WORD;
 
   blysk_front_end front_end (
-    .clk_i, .load_i, .x_i, .status_i(fetch_status), .cut_i(cut), .shift_i(shift),
-    .hand_over_i(hand_over), .shift_outer_i(shift_outer), .outer_o(outer),
+    .clk_i, .load_i, .x_i, .status_i(fetch_status), .fields_i(fields), .beyond_o(beyond),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 
@@ -48,19 +45,49 @@ module front_end_proof #(
   localparam logic signed [WIDE-1:0] X_ONE = ONE <<< blysk_pkg::INPUT_FRACTION;
   localparam logic signed [WIDE-1:0] X_GREATEST = WIDE'(blysk_pkg::X_GREATEST);
 
-  logic signed [WIDE-1:0] port, x, first, middle, s, u, exact, variable;
-  logic                   polynomial, second;
-  logic [blysk_pkg::SHIFT_COMMON_WIDTH-1:0] places;
+  // Where each segment begins, in the unit of x, and its shift.
+  localparam int SEGMENTS = blysk_pkg::SEGMENTS;
+  localparam int PLACES   = blysk_pkg::SHIFT_COMMON_WIDTH;
+  logic [SEGMENTS*WIDE-1:0]   begins;
+  logic [SEGMENTS*PLACES-1:0] shifts;
+  for (genvar k = 0; k < SEGMENTS; k++) begin : segment
+    if (blysk_pkg::CENTRED != 0 && blysk_pkg::HAS_POLYNOMIAL != 0) begin : shifted
+      assign shifts[k*PLACES+:PLACES] =
+          PLACES'(fields[blysk_pkg::SHIFT_PLACES[32*k+:32]+:blysk_pkg::SHIFT_WIDTHS[32*k+:32]]);
+    end else begin : not_shifted
+      assign shifts[k*PLACES+:PLACES] = '0;
+    end
+    if (k == 0) begin : first
+      assign begins[0+:WIDE] = X_ONE;
+    end else begin : further
+      localparam int PLACE = blysk_pkg::HAND_OVER_PLACES[32*k+:32];
+      localparam int WIDTH = blysk_pkg::HAND_OVER_WIDTHS[32*k+:32];
+      assign begins[k*WIDE+:WIDE] = WIDE'(fields[PLACE+:WIDTH]) << blysk_pkg::HAND_OVER_UP;
+    end
+  end
+
+  logic signed [WIDE-1:0]         port, x, first, start, s, u, exact, variable;
+  logic                           polynomial;
+  logic [blysk_pkg::SEGMENTS-1:0] below;
+  logic [PLACES-1:0]              places;
   always_comb begin
     port       = blysk_pkg::INPUT_SIGNED != 0 ? WIDE'($signed(x_i)) : WIDE'(x_i);
     x          = port < 0 ? '0 : port > X_GREATEST ? X_GREATEST : port;
-    // Both ends in the unit of x.
+    // The cut in the unit of x.
     first      = WIDE'(cut) <<< blysk_pkg::CUT_UP;
-    middle     = WIDE'(hand_over) <<< blysk_pkg::HAND_OVER_UP;
     polynomial = blysk_pkg::HAS_POLYNOMIAL != 0 && !no_word_i && port >= 0 && x >= first;
-    second     = blysk_pkg::SEGMENTS > 1 && polynomial && x < middle;
-    s          = !polynomial ? '0 : second ? middle - x : X_ONE - x;
-    places     = second ? blysk_pkg::SHIFT_COMMON_WIDTH'(shift_outer) : blysk_pkg::SHIFT_COMMON_WIDTH'(shift);
+    // The furthest segment whose start lies above x.
+    start      = X_ONE;
+    places     = shifts[0+:PLACES];
+    below      = '0;
+    for (int k = 1; k < SEGMENTS; k++) begin
+      if (polynomial && x < $signed(begins[k*WIDE+:WIDE])) begin
+        below[k] = 1'b1;
+        start    = $signed(begins[k*WIDE+:WIDE]);
+        places   = shifts[k*PLACES+:PLACES];
+      end
+    end
+    s          = polynomial ? start - x : '0;
   end
 
   multiply_add #(
@@ -92,7 +119,7 @@ module front_end_proof #(
 
   always_comb begin
     if (load_i) assume (row_i < blysk_pkg::ROM_DEPTH);
-    right_segment: assert (outer == second);
+    right_segment: assert (beyond == below);
     if (loaded) begin
       variable_fits: assert (WIDE'(v) == was_variable);
       right_region:  assert (region == (was_polynomial ? blysk_pkg::REGION_POLYNOMIAL

@@ -1,19 +1,10 @@
 // The pipelined multiply-adds are the unpipelined expression, under any stalls. Placed into blysk,
 // before its endmodule.
 //
-// What a result was computed from goes along with it, rank by rank: coefficients, v, t1, t2. At every
-// rank t1, t2 and t3 must be the lines of what is beside them (by induction: they are when they are
-// computed, and stay so). At the last rank before the clamp, t3 must be the three lines nested, a
+// What a result was computed from goes along with it, rank by rank: coefficients, v, t(1), t(2), ... At every
+// rank each t(j) must be the line of what is beside it (by induction: it is when it is
+// computed, and stays so). At the last rank before the clamp, the last t must be the lines nested, a
 // function of the coefficients and v alone.
-`define LINE(MULTIPLICAND, ADDEND, T) \
-  line #( \
-    .MULTIPLICAND_WIDTH(blysk_pkg::MULTIPLICAND``_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::MULTIPLICAND``_SIGNED), \
-    .VARIABLE_WIDTH(blysk_pkg::V_WIDTH), .T_WIDTH(blysk_pkg::T``_WIDTH), \
-    .ADDEND_WIDTH(blysk_pkg::ADDEND``_WIDTH), .ADDEND_SIGNED(blysk_pkg::ADDEND``_SIGNED), \
-    .SUBTRACT(blysk_pkg::CENTRED), .PRODUCT_UP(blysk_pkg::T``_PRODUCT_UP), \
-    .ADDEND_UP(blysk_pkg::T``_ADDEND_UP), .RESULT_UP(blysk_pkg::T``_RESULT_UP), .DROP(blysk_pkg::T``_DROP), \
-    .ROUNDING(blysk_pkg::T``_ROUNDING), .SUM_WIDTH(blysk_pkg::T``_SUM_WIDTH))
-
   localparam int LAST   = blysk_pkg::RANKS - 2;
   localparam int REGION = blysk_pkg::REGION_WIDTH;
   localparam int STATUS = blysk_pkg::STATUS_WIDTH;
@@ -35,92 +26,91 @@
   end
 
   if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : lines
-    localparam int C3 = blysk_pkg::C3_WIDTH;
-    localparam int C2 = blysk_pkg::C2_WIDTH;
-    localparam int C1 = blysk_pkg::C1_WIDTH;
-    localparam int C0 = blysk_pkg::C0_WIDTH;
-    localparam int V  = blysk_pkg::V_WIDTH;
-    localparam int T1 = blysk_pkg::T1_WIDTH;
-    localparam int T2 = blysk_pkg::T2_WIDTH;
-    localparam int T3 = blysk_pkg::T3_WIDTH;
+    localparam int DEGREE = blysk_pkg::DEGREE;
+    localparam int V      = blysk_pkg::V_WIDTH;
 
     // From the rank of each on, to the last.
-    logic [(LAST+1)*C3-1:0] c3s;
-    logic [(LAST+1)*C2-1:0] c2s;
-    logic [(LAST+1)*C1-1:0] c1s;
-    logic [(LAST+1)*C0-1:0] c0s;
-    logic [LAST*V-1:0]      vs;
-    logic [(LAST-1)*T1-1:0] t1s;
-    logic [(LAST-2)*T2-1:0] t2s;
-    trail #(.WIDTH(C3), .RANKS(LAST), .STORED(blysk_pkg::C3_CARRIED)) c3_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c3_chosen), .trail_o(c3s));
-    trail #(.WIDTH(C2), .RANKS(LAST), .STORED(blysk_pkg::C2_CARRIED)) c2_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c2_chosen), .trail_o(c2s));
-    trail #(.WIDTH(C1), .RANKS(LAST), .STORED(blysk_pkg::C1_CARRIED)) c1_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c1_chosen), .trail_o(c1s));
-    trail #(.WIDTH(C0), .RANKS(LAST), .STORED(blysk_pkg::C0_CARRIED)) c0_trail (
-      .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.c0_chosen), .trail_o(c0s));
+    for (genvar i = 0; i <= DEGREE; i++) begin : c
+      localparam int WIDTH = blysk_pkg::C_WIDTH[32*i+:32];
+      logic [(LAST+1)*WIDTH-1:0] all;
+      trail #(.WIDTH(WIDTH), .RANKS(LAST), .STORED(blysk_pkg::C_CARRIED[32*i+:32])) along (
+        .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.coefficient[i].chosen), .trail_o(all));
+    end
+    logic [LAST*V-1:0] vs;
     trail #(.WIDTH(V), .RANKS(LAST - 1)) v_trail (
       .clk_i, .load_i(load[LAST:2]), .value_i(v), .trail_o(vs));
-    trail #(.WIDTH(T1), .RANKS(LAST - 2)) t1_trail (
-      .clk_i, .load_i(load[LAST:3]), .value_i(polynomial.t1), .trail_o(t1s));
-    trail #(.WIDTH(T2), .RANKS(LAST - 3)) t2_trail (
-      .clk_i, .load_i(load[LAST:4]), .value_i(polynomial.t2), .trail_o(t2s));
+    // t(j) is in rank j + 1. The last is looked at where the design has it.
+    for (genvar j = 1; j <= DEGREE; j++) begin : t
+      localparam int WIDTH = blysk_pkg::T_WIDTH[32*j+:32];
+      logic [(LAST-j)*WIDTH-1:0] all;
+      if (j + 1 < LAST) begin : on
+        trail #(.WIDTH(WIDTH), .RANKS(LAST - j - 1)) along (
+          .clk_i, .load_i(load[LAST:j+2]), .value_i(polynomial.stage[j].t), .trail_o(all));
+      end else begin : last
+        assign all = polynomial.stage[j].t;
+      end
+    end
 
     for (genvar rank = 2; rank <= LAST; rank++) begin : at
-      logic [C3-1:0] along_c3;
-      logic [C2-1:0] along_c2;
-      logic [C1-1:0] along_c1;
-      logic [C0-1:0] along_c0;
-      logic [V-1:0]  along_v;
-      logic [T1-1:0] along_t1;
-      assign along_c3 = c3s[rank*C3+:C3];
-      assign along_c2 = c2s[rank*C2+:C2];
-      assign along_c1 = c1s[rank*C1+:C1];
-      assign along_c0 = c0s[rank*C0+:C0];
-      assign along_v  = vs[(rank-1)*V+:V];
-      assign along_t1 = t1s[(rank-2)*T1+:T1];
+      logic [V-1:0] along_v;
+      assign along_v = vs[(rank-1)*V+:V];
 
-      logic [T1-1:0] line1;
-      `LINE(C3, C2, T1) first (
-        .multiplicand_i(along_c3), .variable_i(along_v), .addend_i(along_c2), .t_o(line1));
-      always_comb if (has_result[rank]) assert (along_t1 == line1);
+      for (genvar j = 1; j <= DEGREE; j++) begin : line_of
+        localparam int M = blysk_pkg::T_WIDTH[32*(j-1)+:32];
+        localparam int A = blysk_pkg::C_WIDTH[32*(DEGREE-j)+:32];
+        localparam int T = blysk_pkg::T_WIDTH[32*j+:32];
+        // What is beside it in this rank, and of the line itself, nested.
+        logic [M-1:0] multiplicand, inner;
+        logic [A-1:0] addend;
+        logic [T-1:0] along_t, result, nested;
+        assign addend = c[DEGREE-j].all[rank*A+:A];
 
-      if (rank >= 3) begin : from_3
-        logic [T2-1:0] along_t2;
-        assign along_t2 = t2s[(rank-3)*T2+:T2];
-        logic [T2-1:0] line2;
-        `LINE(T1, C1, T2) second (
-          .multiplicand_i(along_t1), .variable_i(along_v), .addend_i(along_c1), .t_o(line2));
-        always_comb if (has_result[rank]) assert (along_t2 == line2);
+        if (j == 1) begin : first
+          assign multiplicand = c[DEGREE].all[rank*M+:M];
+          assign inner        = multiplicand;
+        end else if (rank >= j) begin : later
+          assign multiplicand = t[j-1].all[(rank-j)*M+:M];
+          assign inner        = line_of[j-1].nested;
+        end else begin : none
+          assign multiplicand = '0;
+          assign inner        = '0;
+        end
 
-        if (rank >= 4) begin : from_4
-          logic [T3-1:0] along_t3;
-          if (rank == LAST) begin : waited
-            assign along_t3 = t3_waited;
-          end else if (rank == 4) begin : computed
-            assign along_t3 = polynomial.t3;
-          end else begin : waiting
-            logic [(rank-3)*T3-1:0] t3s;
-            trail #(.WIDTH(T3), .RANKS(rank - 4)) t3_trail (
-              .clk_i, .load_i(load[rank:5]), .value_i(polynomial.t3), .trail_o(t3s));
-            assign along_t3 = t3s[(rank-4)*T3+:T3];
+        line #(
+          .MULTIPLICAND_WIDTH(M), .MULTIPLICAND_SIGNED(blysk_pkg::T_SIGNED[32*(j-1)+:32]),
+          .VARIABLE_WIDTH(V), .T_WIDTH(T),
+          .ADDEND_WIDTH(A), .ADDEND_SIGNED(blysk_pkg::C_SIGNED[32*(DEGREE-j)+:32]),
+          .SUBTRACT(blysk_pkg::CENTRED), .PRODUCT_UP(blysk_pkg::T_PRODUCT_UP[32*j+:32]),
+          .ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32]), .RESULT_UP(blysk_pkg::T_RESULT_UP[32*j+:32]),
+          .DROP(blysk_pkg::T_DROP[32*j+:32]), .ROUNDING(blysk_pkg::T_ROUNDING[32*j+:32]),
+          .SUM_WIDTH(blysk_pkg::T_SUM_WIDTH[32*j+:32])
+        ) beside (
+          .multiplicand_i(multiplicand), .variable_i(along_v), .addend_i(addend), .t_o(result)
+        );
+        line #(
+          .MULTIPLICAND_WIDTH(M), .MULTIPLICAND_SIGNED(blysk_pkg::T_SIGNED[32*(j-1)+:32]),
+          .VARIABLE_WIDTH(V), .T_WIDTH(T),
+          .ADDEND_WIDTH(A), .ADDEND_SIGNED(blysk_pkg::C_SIGNED[32*(DEGREE-j)+:32]),
+          .SUBTRACT(blysk_pkg::CENTRED), .PRODUCT_UP(blysk_pkg::T_PRODUCT_UP[32*j+:32]),
+          .ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32]), .RESULT_UP(blysk_pkg::T_RESULT_UP[32*j+:32]),
+          .DROP(blysk_pkg::T_DROP[32*j+:32]), .ROUNDING(blysk_pkg::T_ROUNDING[32*j+:32]),
+          .SUM_WIDTH(blysk_pkg::T_SUM_WIDTH[32*j+:32])
+        ) whole (
+          .multiplicand_i(inner), .variable_i(along_v), .addend_i(addend), .t_o(nested)
+        );
+
+        if (rank > j) begin : computed
+          if (j == DEGREE && rank == LAST) begin : waited
+            assign along_t = t_waited;
+          end else begin : on
+            assign along_t = t[j].all[(rank-j-1)*T+:T];
           end
-          logic [T3-1:0] line3;
-          `LINE(T2, C0, T3) third (
-            .multiplicand_i(along_t2), .variable_i(along_v), .addend_i(along_c0), .t_o(line3));
-          always_comb if (has_result[rank]) assert (along_t3 == line3);
-
-          if (rank == LAST) begin : whole
-            // The three lines nested.
-            logic [T2-1:0] nested2;
-            logic [T3-1:0] nested3;
-            `LINE(T1, C1, T2) second (
-              .multiplicand_i(line1), .variable_i(along_v), .addend_i(along_c1), .t_o(nested2));
-            `LINE(T2, C0, T3) third (
-              .multiplicand_i(nested2), .variable_i(along_v), .addend_i(along_c0), .t_o(nested3));
-            always_comb if (has_result[rank]) assert (t3_waited == nested3);
+          always_comb if (has_result[rank]) assert (along_t == result);
+          if (j == DEGREE && rank == LAST) begin : all_of_them
+            always_comb if (has_result[rank]) assert (t_waited == nested);
           end
+        end else begin : not_yet
+          assign along_t = '0;
         end
       end
     end

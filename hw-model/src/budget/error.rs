@@ -2,49 +2,20 @@
 
 use super::polynomial::{derivative, magnitude};
 use super::{Bound, RowPolynomial};
+use crate::quantise::power_of_two;
+use crate::registers::{MAX_DEGREE, Register, Table};
 use crate::rounding::Rounding;
+use crate::steps::Steps;
 
-/// The registers whose fraction bits the budget chooses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Register {
-    /// The variable, u (x is taken as it comes).
-    V,
-    /// Coefficient of v³.
-    C3,
-    /// Coefficient of v².
-    C2,
-    /// Coefficient of v.
-    C1,
-    /// Constant coefficient.
-    C0,
-    /// Result of stage 1.
-    T1,
-    /// Result of stage 2.
-    T2,
+/// The registers of a polynomial of this degree whose fraction bits the budget chooses, in the order in which they are
+/// reported: the variable, the coefficients from the highest power down, the results of all stages but the last.
+pub fn chosen(degree: usize) -> impl Iterator<Item = Register> {
+    let coefficients = (0..=degree).rev().map(|power| Register::C(0, power));
+    std::iter::once(Register::V).chain(coefficients).chain((1..degree).map(Register::T))
 }
 
-impl Register {
-    /// Every register, in the order of [`FractionBits`].
-    pub const ALL: [Self; 7] =
-        [Self::V, Self::C3, Self::C2, Self::C1, Self::C0, Self::T1, Self::T2];
-
-    /// The name used in configurations and messages.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::V => "u",
-            Self::C3 => "c3",
-            Self::C2 => "c2",
-            Self::C1 => "c1",
-            Self::C0 => "c0",
-            Self::T1 => "t1",
-            Self::T2 => "t2",
-        }
-    }
-}
-
-/// Fraction bits of every register, indexed by [`Register`].
-pub type FractionBits = [u32; Register::ALL.len()];
+/// Fraction bits of every register that the budget chooses.
+pub type FractionBits = Table<u32>;
 
 /// The power coefficients of a Horner chain over `terms` (constant term first): where each stage
 /// subtracts, every odd power changes sign.
@@ -59,8 +30,8 @@ pub(super) fn horner(terms: &[f64], subtract: bool) -> Vec<f64> {
 #[derive(Debug, Clone, Copy)]
 pub struct Sensitivity {
     row: RowPolynomial,
-    /// The greatest |f′|, |f″| and |f‴| on the row's region.
-    slopes: [f64; 3],
+    /// The greatest magnitude of each derivative, from the first on, on the row's region.
+    slopes: [f64; MAX_DEGREE],
 }
 
 /// What the formats are between: input and output fraction bits, form and rounding.
@@ -79,7 +50,7 @@ pub struct Surroundings {
 impl Surroundings {
     /// The greatest error of a rounding line that keeps `fraction` bits.
     pub(crate) fn line_error(&self, fraction: u32) -> f64 {
-        let ulp = (-f64::from(fraction)).exp2();
+        let ulp = power_of_two(-(fraction as i32));
         if self.rounding.is_nearest() { 0.5 * ulp } else { ulp }
     }
 
@@ -93,13 +64,15 @@ impl Sensitivity {
     /// The sensitivity of a row.
     #[must_use]
     pub fn of(row: RowPolynomial, surroundings: &Surroundings) -> Self {
-        let first = derivative(&horner(&row.coefficients, surroundings.centred));
-        let second = derivative(&first);
-        let third = derivative(&second);
-        Self { row, slopes: [first, second, third].map(|slope| magnitude(&slope, row.v)) }
+        let mut terms = horner(row.terms(), surroundings.centred);
+        let slopes = std::array::from_fn(|_| {
+            terms = derivative(&terms);
+            magnitude(&terms, row.v)
+        });
+        Self { row, slopes }
     }
 
-    /// The row.
+    /// The row whose errors are analysed.
     #[must_use]
     pub const fn row(&self) -> &RowPolynomial {
         &self.row
@@ -111,67 +84,84 @@ impl Sensitivity {
         if !self.row.answers {
             return Bound::default();
         }
-        let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
-        let error = self.variable_error(v_bits, surroundings);
+        let error = self.variable_error(bits[Register::V], surroundings);
         let variable = self.shown(error);
         // The lines see the rounded variable, which may lie outside the region by its error.
         let v = self.row.v.1 + error;
-        let coefficient = self.coefficient_bound([c0, c1, c2, c3], v, surroundings);
-        let rounding = surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v
-            + surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v
-            + surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0));
-        let ulp = (-f64::from(surroundings.output)).exp2();
+        let coefficient = self.coefficient_bound(bits, v, surroundings);
+        let rounding: f64 = self.roundings(bits, v, surroundings).sum();
+        let ulp = power_of_two(-(surroundings.output as i32));
         Bound { coefficient: coefficient / ulp, datapath: (variable + rounding) / ulp, tail: 0.0 }
     }
 
-    /// What each register adds to the bound, in output ulp, in the order of [`Register::ALL`], and the
+    /// What each register adds to the bound, in output ulp, in the order of [`chosen`], and the
     /// rounding of the result last. Their sum is the bound.
     #[must_use]
-    pub fn shares(&self, bits: &FractionBits, surroundings: &Surroundings) -> [f64; 8] {
+    pub fn shares(&self, bits: &FractionBits, surroundings: &Surroundings) -> Vec<f64> {
+        let degree = self.row.degree;
         if !self.row.answers {
-            return [0.0; 8];
+            return vec![0.0; 2 * degree + 2];
         }
-        let [v_bits, c3, c2, c1, c0, t1, t2] = *bits;
-        let error = self.variable_error(v_bits, surroundings);
+        let error = self.variable_error(bits[Register::V], surroundings);
         let v = self.row.v.1 + error;
-        let [e0, e1, e2, e3] = self.moved([c0, c1, c2, c3]);
-        let shares = [
-            self.shown(error),
-            e3 * v * v * v,
-            e2 * v * v,
-            e1 * v,
-            e0,
-            surroundings.rounding_error(t1, (c3 + v_bits).max(c2)) * v * v,
-            surroundings.rounding_error(t2, (t1 + v_bits).max(c1)) * v,
-            surroundings.rounding_error(surroundings.output, (t2 + v_bits).max(c0)),
-        ];
-        shares.map(|share| share * f64::from(surroundings.output).exp2())
+        let moved = self.moved(bits);
+        let coefficients = (0..=degree).rev().map(|power| times_power(moved[power], v, power));
+        std::iter::once(self.shown(error))
+            .chain(coefficients)
+            .chain(self.roundings(bits, v, surroundings))
+            .map(|share| share * power_of_two(surroundings.output as i32))
+            .collect()
+    }
+
+    /// How the rounding of each stage shows in the result, for a variable of `v`: it is multiplied by it in each stage
+    /// that follows.
+    fn roundings<'a>(
+        &self,
+        bits: &'a FractionBits,
+        v: f64,
+        surroundings: &'a Surroundings,
+    ) -> impl Iterator<Item = f64> + use<'a> {
+        let degree = self.row.degree;
+        (1..=degree).map(move |stage| {
+            let multiplicand = if stage == 1 { Register::C(0, degree) } else { Register::T(stage - 1) };
+            let product = bits[multiplicand] + bits[Register::V];
+            let whole = product.max(bits[Register::C(0, degree - stage)]);
+            let kept = if stage == degree { surroundings.output } else { bits[Register::T(stage)] };
+            times_power(surroundings.rounding_error(kept, whole), v, degree - stage)
+        })
     }
 
     /// How far the polynomial with the ROM's integers may be from the real one, for variables up to `v`.
-    fn coefficient_bound(&self, fractions: [u32; 4], v: f64, surroundings: &Surroundings) -> f64 {
-        let apart = self.moved(fractions).iter().rev().fold(0.0, |sum, error| sum * v + error);
-        if self.row.steps == [0; 4] {
+    fn coefficient_bound(&self, bits: &FractionBits, v: f64, surroundings: &Surroundings) -> f64 {
+        let apart = self.moved(bits).iter().rev().fold(0.0, |sum, error| sum * v + error);
+        if self.row.steps == Steps::default() {
             return apart;
         }
         // Steps make up for each other, so that their sum says little: the difference of the polynomials is one
-        // of degree 3, whose greatest magnitude is known. Real coefficients may be a place of 53 off.
-        let difference: [f64; 4] = std::array::from_fn(|power| {
-            let (value, scale) = (self.row.coefficients[power], f64::from(fractions[power]).exp2());
-            let rounded = (value * scale).round_ties_even() + f64::from(self.row.steps[power]);
-            rounded / scale - value
-        });
-        let slack: f64 = self.row.coefficients.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
+        // of the same degree, whose greatest magnitude is known. Real coefficients may be a place of 53 off.
+        let difference: Vec<f64> = (0..=self.row.degree)
+            .map(|power| {
+                let scale = power_of_two(bits[Register::C(0, power)] as i32);
+                let value = self.row.coefficients[power];
+                let rounded = (value * scale).round_ties_even() + f64::from(self.row.steps[power]);
+                rounded / scale - value
+            })
+            .collect();
+        let slack: f64 = self.row.terms().iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
         let terms = horner(&difference, surroundings.centred);
         (magnitude(&terms, (self.row.v.0, v)) + 4.0 * slack * f64::EPSILON).min(apart)
     }
 
-    /// How far the ROM's c0, c1, c2, c3 of these fraction bits may be from the real ones.
-    fn moved(&self, fractions: [u32; 4]) -> [f64; 4] {
+    /// How far the ROM's coefficients of these fraction bits may be from the real ones.
+    fn moved(&self, bits: &FractionBits) -> [f64; MAX_DEGREE + 1] {
         std::array::from_fn(|power| {
+            if power > self.row.degree {
+                return 0.0;
+            }
+            let fraction = bits[Register::C(0, power)];
             let steps = f64::from(self.row.steps[power].unsigned_abs());
-            let step = steps * (-f64::from(fractions[power])).exp2();
-            coefficient_error(self.row.coefficients[power], fractions[power]) + step
+            let step = steps * (-f64::from(fraction)).exp2();
+            coefficient_error(self.row.coefficients[power], fraction) + step
         })
     }
 
@@ -185,12 +175,18 @@ impl Sensitivity {
         }
     }
 
-    /// How an error of the variable shows in the result. Taylor's series of the cubic ends here, so
+    /// How an error of the variable shows in the result. Taylor's series of the polynomial ends here, so
     /// this is no approximation.
     fn shown(&self, error: f64) -> f64 {
-        let [first, second, third] = self.slopes;
+        let [first, second, third, fourth] = self.slopes;
+        let third = third + error * fourth / 4.0;
         error * (first + error * (second / 2.0 + error * third / 6.0))
     }
+}
+
+/// value·v^power, multiplied one by one.
+fn times_power(value: f64, v: f64, power: usize) -> f64 {
+    (0..power).fold(value, |product, _| product * v)
 }
 
 /// Half an ulp, or nothing where the format holds the value exactly; and what the f64 itself may be
@@ -198,7 +194,6 @@ impl Sensitivity {
 /// 10⁻⁴ of it are lost before the ROM's format is even chosen).
 pub(super) fn coefficient_error(value: f64, fraction: u32) -> f64 {
     let scaled = value * f64::from(fraction).exp2();
-    let quantised =
-        if scaled == scaled.round() { 0.0 } else { 0.5 * (-f64::from(fraction)).exp2() };
+    let quantised = if scaled == scaled.round() { 0.0 } else { 0.5 * (-f64::from(fraction)).exp2() };
     quantised + value.abs() * f64::EPSILON
 }

@@ -46,8 +46,11 @@ impl Range {
         let low = (self.low.0 * scale).floor() as i128;
         let high = (self.high.0 * scale).ceil() as i128;
         let furthest = if self.high.0 >= -self.low.0 { self.high.1 } else { self.low.1 };
-        let needed = QFormat::for_range(low, high, fraction)
-            .map_err(|source| BudgetError::TooWide { register, exponent: furthest, source })?;
+        let needed = QFormat::for_range(low, high, fraction).map_err(|source| BudgetError::TooWide {
+            register,
+            exponent: furthest,
+            source,
+        })?;
         let Some(stated) = stated else {
             return Ok(needed);
         };
@@ -61,39 +64,39 @@ impl Range {
 }
 
 /// The rounding errors that the partial results may carry, as real values.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Carried {
-    /// Of v.
+    /// The rounding error of v.
     pub v: f64,
-    /// Of t1, t2 and t3, each by its own rounding.
-    pub lines: [f64; 3],
+    /// Of t1, t2, …, each by its own rounding.
+    pub lines: Vec<f64>,
 }
 
-/// The ranges of v, t1, t2 and t3 over all rows. The coefficients are those in the ROM, as real values.
+/// The ranges of v, t1, t2, … over all rows of one degree. The coefficients are those in the ROM, as real values.
 ///
 /// A partial result is a polynomial of lower degree in v; its extremes over the region are widened by
 /// the rounding errors that reach it, and by a relative 2^−40 for the arithmetic of this analysis.
 /// Its own rounding comes last and never takes a sum that is not negative below 0, whatever the mode.
 #[must_use]
-pub fn ranges(rows: &[RowPolynomial], subtract: bool, carried: &Carried) -> [Range; 4] {
-    let mut ranges = [Range::zero(); 4];
+pub fn ranges(rows: &[RowPolynomial], subtract: bool, carried: &Carried) -> Vec<Range> {
+    let mut ranges = vec![Range::zero(); 1 + carried.lines.len()];
     for row in rows {
         let region = ((row.v.0 - carried.v).max(0.0), row.v.1 + carried.v);
         let v = region.1;
-        let [r1, r2, r3] = carried.lines;
-        // The rounding error that reaches the sum of a stage, and that of its own result.
-        let reach = [(0.0, r1), (r1 * v, r2), ((r1 * v + r2) * v, r3)];
-        // What stage k has summed: the terms from its own addend up.
-        let terms = &row.coefficients;
-        let partial = [&terms[2..], &terms[1..], &terms[..]].map(|terms| horner(terms, subtract));
         ranges[0] = ranges[0].with(region, row.exponent);
-        for ((range, polynomial), (reach, own)) in ranges[1..].iter_mut().zip(partial).zip(reach) {
-            let (low, high) = extremes(&polynomial, region);
-            let scale: f64 = polynomial.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
+        // The rounding error that reaches the sum of a stage.
+        let mut reach = 0.0;
+        for (index, (range, own)) in ranges[1..].iter_mut().zip(&carried.lines).enumerate() {
+            // What the stage has summed: the terms from its own addend up.
+            let terms = row.terms();
+            let partial = horner(&terms[terms.len().saturating_sub(index + 2)..], subtract);
+            let (low, high) = extremes(&partial, region);
+            let scale: f64 = partial.iter().rev().fold(0.0, |sum, c| sum * v + c.abs());
             let slack = reach + scale * (-40_f64).exp2();
             let floor = if low >= slack { 0.0 } else { f64::NEG_INFINITY };
             let low = (low - slack - own).max(floor);
             *range = range.with((low, high + slack + own), row.exponent);
+            reach = (reach + own) * v;
         }
     }
     ranges

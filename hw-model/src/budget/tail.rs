@@ -14,22 +14,22 @@ use crate::format::QFormat;
 /// The formats of the divider, and the fraction bits they share.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TailWidths {
-    /// A.
+    /// The format of A, the addend of D = A − B·x.
     pub a: QFormat,
-    /// B.
+    /// The format of B, the multiplicand of D = A − B·x.
     pub b: QFormat,
-    /// D.
+    /// The format of the divisor D.
     pub divisor: QFormat,
 }
 
 /// Stated formats of the divider.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct StatedTail {
-    /// A.
+    /// The format stated for A, if one is.
     pub a: Option<QFormat>,
-    /// B.
+    /// The format stated for B, if one is.
     pub b: Option<QFormat>,
-    /// D.
+    /// The format stated for D, if one is.
     pub divisor: Option<QFormat>,
 }
 
@@ -51,19 +51,13 @@ pub fn bound(row: &RowTail, widths: &TailWidths, input: u32, surroundings: &Surr
 /// What A, B, D and the rounding of the quotient add to the bound, in output ulp; A, B and D with
 /// `fewer` fraction bits less than these formats have. Their sum is the bound.
 #[must_use]
-pub fn shares(
-    row: &RowTail,
-    widths: &TailWidths,
-    fewer: u32,
-    input: u32,
-    surroundings: &Surroundings,
-) -> [f64; 4] {
+pub fn shares(row: &RowTail, widths: &TailWidths, fewer: u32, input: u32, surroundings: &Surroundings) -> [f64; 4] {
     let x = row.greatest_x;
     if x == 0.0 {
         return [0.0; 4];
     }
-    let [a, b, divisor] = [widths.a, widths.b, widths.divisor]
-        .map(|format| format.fraction_bits().saturating_sub(fewer));
+    let [a, b, divisor] =
+        [widths.a, widths.b, widths.divisor].map(|format| format.fraction_bits().saturating_sub(fewer));
     let errors = [
         coefficient_error(row.a, a),
         x * coefficient_error(row.b, b),
@@ -114,21 +108,16 @@ pub fn widths(
     };
     let worst = |bits: Bits| {
         rows.iter()
-            .map(|row| {
-                (bound_of_bits(row, bits, input.fraction_bits(), surroundings), row.exponent)
-            })
+            .map(|row| (bound_of_bits(row, bits, input.fraction_bits(), surroundings), row.exponent))
             .fold((0.0, 1.0), |worst, row| if row.0 > worst.0 { row } else { worst })
     };
     // 14 bits beyond the output's: an error of 2^−14 ulp, as in the search for the polynomial.
     let most = surroundings.output + 14;
-    let bits = (least..=most.max(least))
-        .map(choose)
-        .find(|&bits| worst(bits).0 <= budget)
-        .ok_or_else(|| {
-            let (needed, exponent) = worst(choose(most.max(least)));
-            let what = "the divider's widths";
-            BudgetError::NotKept { budget, what, needed, exponent }
-        })?;
+    let bits = (least..=most.max(least)).map(choose).find(|&bits| worst(bits).0 <= budget).ok_or_else(|| {
+        let (needed, exponent) = worst(choose(most.max(least)));
+        let what = "the divider's widths";
+        BudgetError::NotKept { budget, what, needed, exponent }
+    })?;
     formats(rows, bits, stated)
 }
 

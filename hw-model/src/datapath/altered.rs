@@ -1,13 +1,13 @@
-//! The same data path with a part exchanged: hardware that was built wrongly, for those who look for
-//! vectors that tell it from the right one.
+//! The same data path with a part exchanged: hardware that was built wrongly, for the search for vectors that tell it
+//! from the right hardware.
 //!
 //! The ROM and the formats stay: they say which hardware it was meant to be. Its registers may now
-//! be given values that do not fit; who asks for them rank by rank trims them with
+//! be given values that do not fit; a caller that goes rank by rank trims them with
 //! [`QFormat::from_word`](crate::format::QFormat::from_word).
 
 use super::front_end::FrontEnd;
 use super::ranks::Datapath;
-use super::stage::MultiplyAdd;
+use super::stage::{MultiplyAdd, Stages};
 use super::tail::Divider;
 
 impl Datapath {
@@ -17,10 +17,12 @@ impl Datapath {
         Self { front_end, ..self }
     }
 
-    /// With other multiply-add lines; only for a data path that has them.
+    /// With another line in the place of stage `index` (0 is the first), where there is one.
     #[must_use]
-    pub fn with_stages(self, stages: [MultiplyAdd; 3]) -> Self {
-        Self { stages: self.stages.map(|_| stages), ..self }
+    pub fn with_stage(self, index: usize, line: MultiplyAdd) -> Self {
+        let lines = self.stages.lines().iter().enumerate();
+        let stages = lines.map(|(place, &own)| if place == index { line } else { own });
+        Self { stages: Stages::new(stages), ..self }
     }
 
     /// With another divider; only for a data path that has one. The number of ranks follows it.

@@ -4,16 +4,17 @@
 //!
 //! | region       | when                                        | intensity             |
 //! |--------------|---------------------------------------------|-----------------------|
-//! | `polynomial` | x ≥ cut                                     | the three stages      |
+//! | `polynomial` | x ≥ cut                                     | the stages            |
 //! | `tail`       | 0 ≤ x < cut, configuration keeps a divider  | the divider           |
 //! | `zero`       | 0 ≤ x < cut without one; x < 0; no ROM word | 0                     |
 //!
 //! In a configuration with a domain ([`crate::domain`]) the cut is the least x of it, and an x from 0 up to there is
 //! refused: the intensity is zero and the status says so.
 //!
-//! With two segments, the second answers from `cut` up to `hand_over`: it has coefficients and a shift of its
-//! own, and v = (hand_over − x)·2^shift counts from where the first one hands over. From the front
-//! end on its coefficients stand in the places of the first's.
+//! With several segments, the last answers from `cut` up to its hand-over, the one before from there up to its own, and
+//! so on: each has coefficients and a shift of its own, and v = (hand-over − x)·2^shift counts from where the one
+//! before hands over. From the front end on the coefficients of the segment that answers stand in the places of the
+//! first's.
 //!
 //! A part that does not answer is fed a harmless x, so that what was proved about the ranges of its
 //! registers holds for every input: the polynomial gets u = 0, or x = 1 (the greatest x, where the format
@@ -25,7 +26,8 @@
 //! fitted shifts below 1 in both segments; more where a coarse cut was rounded far down); it is rounded once to u's
 //! fraction bits (nothing is dropped where u has as many as x).
 
-use crate::rom::{FieldName, Row};
+use crate::registers::Register;
+use crate::rom::Fetched;
 use crate::rounding::{Lane, Rounding, round_shift};
 
 /// The part of the pipeline that answers.
@@ -35,9 +37,9 @@ pub enum Region {
     /// The intensity is zero: facing away, below the cut without a tail, or no ROM word.
     #[default]
     Zero = 0,
-    /// The polynomial answers.
+    /// The polynomial answers: x is at or above the cut.
     Polynomial = 1,
-    /// The divider answers.
+    /// The divider answers: x is below the cut and the configuration keeps a tail.
     Tail = 2,
 }
 
@@ -60,7 +62,7 @@ pub enum Variable {
     X,
     /// v = u = (1 − x)·2^e: the centred form.
     ///
-    /// In the second segment (hand_over − x)·2^shift.
+    /// In a further segment (hand-over − x)·2^shift.
     U {
         /// Places s is moved up, beyond e, to meet u's fraction bits.
         up: u32,
@@ -86,8 +88,10 @@ pub struct FrontEnd {
     pub guarded: bool,
     /// Places that the ROM's cut is moved up, to the input's last: it may have fewer bits than x.
     pub cut_up: u32,
-    /// The same of the hand-over.
+    /// The same of the hand-overs.
     pub hand_over_up: u32,
+    /// Segments of the polynomial; 1 where there is none.
+    pub segments: usize,
 }
 
 impl FrontEnd {
@@ -137,15 +141,22 @@ impl FrontEnd {
     /// The cut of a row, in the input's unit. At most 63 bits: what a ROM field with x's fraction bits holds.
     #[inline(always)]
     #[must_use]
-    pub const fn cut(&self, row: &Row) -> i64 {
-        row.get(FieldName::Cut) << self.cut_up
+    pub fn cut(&self, row: &impl Fetched) -> i64 {
+        row.get(Register::Cut) << self.cut_up
     }
 
-    /// The hand-over of a row, in the input's unit; as wide as the cut.
+    /// Where segment k ≥ 1 of a row begins, in the input's unit; as wide as the cut. 0 in a row without that segment.
     #[inline(always)]
     #[must_use]
-    pub const fn hand_over(&self, row: &Row) -> i64 {
-        row.get(FieldName::HandOver) << self.hand_over_up
+    pub fn hand_over(&self, row: &impl Fetched, segment: usize) -> i64 {
+        row.get(Register::HandOver(segment)) << self.hand_over_up
+    }
+
+    /// Where a segment of a row begins, in the input's unit: at 1, or at its hand-over.
+    #[inline(always)]
+    #[must_use]
+    pub fn start(&self, row: &impl Fetched, segment: usize) -> i64 {
+        if segment == 0 { self.one } else { self.hand_over(row, segment) }
     }
 
     /// x clamped to [0, 1].
@@ -174,15 +185,21 @@ impl FrontEnd {
         self.guarded && region == Region::Zero && x >= L::ZERO
     }
 
-    /// Whether the second segment answers for a clamped x; never with a row of one segment, whose
-    /// hand-over is 0.
+    /// Whether a further segment, or one after it, answers for a clamped x; never where its hand-over is 0.
     #[inline(always)]
-    pub fn is_outer<L: Lane>(&self, x: L, region: Region, hand_over: L) -> bool {
+    pub fn is_beyond<L: Lane>(&self, x: L, region: Region, hand_over: L) -> bool {
         region == Region::Polynomial && x < hand_over
     }
 
+    /// The segment of a row that answers for a clamped x at or above the cut.
+    #[must_use]
+    pub fn segment_of(&self, row: &impl Fetched, x: i64) -> usize {
+        let beyond = |&k: &usize| self.is_beyond(x, Region::Polynomial, self.hand_over(row, k));
+        (1..self.segments).rev().find(beyond).unwrap_or(0)
+    }
+
     /// The polynomial's variable for a clamped x: x itself, or u = (start − x)·2^shift, where start is 1 or
-    /// the second segment's. Where the polynomial does not answer, the greatest x, or u = 0.
+    /// a further segment's. Where the polynomial does not answer, the greatest x, or u = 0.
     #[inline(always)]
     pub fn variable<L: Lane>(&self, x: L, region: Region, start: L, shift: u32) -> L {
         let answers = region == Region::Polynomial;

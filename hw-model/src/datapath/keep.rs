@@ -5,17 +5,18 @@
 //! fit wraps, as it does in RTL.
 
 use crate::format::QFormat;
+use crate::registers::{MAX_DEGREE, Register};
 use crate::rounding::Lane;
 
-use super::formats::Formats;
+use super::ranks::{Datapath, HEAD_RANKS};
 
 /// A register that keeps less than it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Damage {
-    /// Its rank.
+    /// The rank it stands in, counted from 0.
     pub rank: usize,
-    /// Its name.
-    pub register: &'static str,
+    /// Which register.
+    pub register: Register,
     /// What it keeps: a format of fewer bits, or its own.
     pub format: QFormat,
     /// True when its lowest bit is always 0.
@@ -29,7 +30,7 @@ pub(super) trait Keep<L>: Copy {
     fn keep(self, value: L) -> L;
 }
 
-/// All of it.
+/// The way to keep a value whole, as the data path does.
 #[derive(Clone, Copy)]
 pub(super) struct Whole;
 
@@ -71,7 +72,8 @@ impl<L: Lane> Keep<L> for Trimmed<L> {
 #[derive(Clone, Copy)]
 pub(super) struct Registers<K> {
     pub v: K,
-    pub t: [K; 3],
+    /// Of the stages, the first first.
+    pub t: [K; MAX_DEGREE],
     pub tail_x: K,
     pub divisor: K,
     pub remainder: K,
@@ -84,7 +86,7 @@ pub(super) struct Registers<K> {
 impl Registers<Whole> {
     pub const WHOLE: Self = Self {
         v: Whole,
-        t: [Whole; 3],
+        t: [Whole; MAX_DEGREE],
         tail_x: Whole,
         divisor: Whole,
         remainder: Whole,
@@ -105,18 +107,17 @@ impl<K: Copy> Registers<K> {
 }
 
 impl<L: Lane> Registers<Trimmed<L>> {
-    /// The registers of these formats. Those of a part that is not there are never asked.
-    pub fn trimmed(formats: &Formats, damage: Option<&Damage>) -> Self {
-        let any = formats.output;
-        let [v, t1, t2, t3] = formats.polynomial.map_or([any; 4], |p| [p.v, p.t1, p.t2, p.t3]);
-        let [divisor, digits] = formats.tail.map_or([any; 2], |tail| [tail.divisor, tail.digits]);
+    /// The registers of a data path. Those of a part that is not there are never asked.
+    pub fn trimmed(datapath: &Datapath, damage: Option<&Damage>) -> Self {
+        let formats = &datapath.formats;
+        let of = |register| Trimmed::to(formats.get(register).unwrap_or(formats.output));
         let registers = Self {
-            v: Trimmed::to(v),
-            t: [t1, t2, t3].map(Trimmed::to),
-            tail_x: Trimmed::to(formats.input),
-            divisor: Trimmed::to(divisor),
-            remainder: Trimmed::to(divisor),
-            digits: Trimmed::to(digits),
+            v: of(Register::V),
+            t: std::array::from_fn(|stage| of(Register::T(stage + 1))),
+            tail_x: of(Register::X),
+            divisor: of(Register::Divisor),
+            remainder: of(Register::Remainder),
+            digits: of(Register::Digits),
             stage: None,
         };
         damage.map_or(registers, |damage| registers.damaged(damage))
@@ -127,17 +128,15 @@ impl<L: Lane> Registers<Trimmed<L>> {
         if damage.low_bit_stuck {
             kept.stuck = -(L::ONE + L::ONE);
         }
-        // The divider begins in rank 2.
-        let stage = damage.rank.saturating_sub(2);
+        // The divider begins behind the head.
+        let stage = damage.rank.saturating_sub(HEAD_RANKS);
         match damage.register {
-            "v" => self.v = kept,
-            "t1" => self.t[0] = kept,
-            "t2" => self.t[1] = kept,
-            "t3" => self.t[2] = kept,
-            "tail_x" => self.tail_x = kept,
-            "divisor" => self.divisor = kept,
-            "remainder" => self.stage = Some((stage, kept, self.digits)),
-            "digits" => self.stage = Some((stage, self.remainder, kept)),
+            Register::V => self.v = kept,
+            Register::T(stage @ 1..=MAX_DEGREE) => self.t[stage - 1] = kept,
+            Register::TailX => self.tail_x = kept,
+            Register::Divisor => self.divisor = kept,
+            Register::Remainder => self.stage = Some((stage, kept, self.digits)),
+            Register::Digits => self.stage = Some((stage, self.remainder, kept)),
             _ => {}
         }
         self

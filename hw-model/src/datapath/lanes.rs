@@ -88,8 +88,7 @@ impl Datapath {
     pub(super) fn operands_fit_half(&self) -> bool {
         let fits = |format: QFormat| format.width() + u32::from(!format.is_signed()) <= 32;
         let polynomial = self.formats.polynomial.iter().all(|polynomial| {
-            let [_, _, _, c3] = polynomial.coefficients;
-            [polynomial.v, polynomial.t1, polynomial.t2, c3].into_iter().all(fits)
+            (1..=polynomial.degree()).map(|stage| polynomial.multiplicand(stage)).chain([polynomial.v]).all(fits)
         });
         // x goes into the divisor's product clamped to [0, 1], as wide as its format at most.
         let tail = self.formats.tail.iter().all(|tail| fits(tail.b) && fits(self.formats.input));
@@ -100,8 +99,7 @@ impl Datapath {
     /// the carry of their rounding. Both with a sign.
     pub(super) fn division_fits_i32(&self) -> bool {
         self.formats.tail.as_ref().is_some_and(|tail| {
-            tail.divisor.width().max(tail.digits.width() + 1) + 2 <= 32
-                && i32::try_from(self.output_one).is_ok()
+            tail.divisor.width().max(tail.digits.width() + 1) + 2 <= 32 && i32::try_from(self.output_one).is_ok()
         })
     }
 }

@@ -1,13 +1,13 @@
 //! The data path, bit for bit: integers only.
 //!
 //! ```text
-//! (address, x) → ROM word ─┬→ front_end → stage 1 → stage 2 → stage 3 ─┬→ clamp → intensity
+//! (address, x) → ROM word ─┬→ front_end → stage 1 → … → stage d ───────┬→ clamp → intensity
 //!                          └→ tail: divisor, quotient digits ──────────┘
 //! ```
 //!
 //! Each file holds the arithmetic of one part, once, as small pure functions over a
-//! [`Lane`](crate::rounding::Lane). [`Datapath`] joins them into ranks of registers; the clocked
-//! simulator, the vectors and the reports all go through it.
+//! [`Lane`](crate::rounding::Lane). They are joined in one place (`compose`); [`Datapath`] takes the same steps rank by
+//! rank. The clocked simulator, the vectors and the reports all go through it.
 //!
 //! There is no floating point here, and no arithmetic outside the lanes: overflow cannot happen
 //! because the width analysis ([`crate::budget`]) sized every line.
@@ -16,6 +16,7 @@
 mod altered;
 mod block;
 pub mod clamp;
+mod compose;
 mod flight;
 pub mod formats;
 pub mod front_end;
@@ -35,4 +36,4 @@ pub use flight::{Flight, Logic};
 pub use keep::Damage;
 pub use ranks::{Datapath, register_name};
 pub use requests::Requests;
-pub use signals::{Register, Signals, Status};
+pub use signals::{RankRegister, Signals, Status};

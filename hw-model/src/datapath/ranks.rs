@@ -1,8 +1,9 @@
 //! The ranks of registers, and the logic between them.
 //!
 //! Rank 0 (`fetch`) takes the input and the ROM word; rank 1 (`front_end`) the region and the
-//! variable; the middle ranks hold the three stages on one side and the divider on the other, whose
+//! variable; the middle ranks hold the stages on one side and the divider on the other, whose
 //! results wait for each other; the last (`clamp`) the intensity and the status. The number of ranks is the latency.
+//! Of a cubic:
 //!
 //! | rank     | polynomial       | tail                     |
 //! |----------|------------------|--------------------------|
@@ -10,21 +11,22 @@
 //! | 3        | stage 2: t2      | quotient bits            |
 //! | 4        | stage 3: t3      | quotient bits            |
 //! | 5 …      | t3 waits         | quotient bits            |
+//!
+//! What a rank takes in is computed by the steps of the composition (`compose.rs`), one at a time.
 
-use crate::rom::{FieldName, Rom, Row};
+use crate::registers::Register;
+use crate::rom::{Fetched, Rom, Row};
 use crate::rounding::Lane;
 
-use super::clamp::clamp;
+use super::compose::{Anything, Lines};
 use super::formats::Formats;
 use super::front_end::{FrontEnd, Region};
-use super::signals::{Register, Signals, Status};
-use super::stage::MultiplyAdd;
+use super::signals::{RankRegister, Signals, Status};
+use super::stage::{MultiplyAdd, Stages};
 use super::tail::Divider;
 
 /// Ranks before the middle: fetch and front end.
-pub(super) const HEAD_RANKS: usize = 2;
-/// Multiply-add stages of the polynomial.
-const STAGES: usize = 3;
+pub const HEAD_RANKS: usize = 2;
 
 /// The data path of one configuration: every line with its alignment, and the ROM.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,7 +34,7 @@ pub struct Datapath {
     pub(crate) rom: Rom,
     pub(crate) formats: Formats,
     pub(crate) front_end: FrontEnd,
-    pub(crate) stages: Option<[MultiplyAdd; STAGES]>,
+    pub(crate) stages: Stages,
     pub(crate) divider: Option<Divider>,
     /// 1 in the output's unit, or the greatest intensity of a format that does not reach 1.
     pub(crate) output_one: i64,
@@ -44,8 +46,8 @@ pub struct Datapath {
 /// divider's name there, also where a multiply-add stage gives the rank its own: `tail0.divisor`.
 #[must_use]
 pub fn register_name(rank: usize, rank_name: &str, register: &str) -> String {
-    match register {
-        "divisor" | "remainder" | "digits" => {
+    match Register::named(register) {
+        Some(Register::Divisor | Register::Remainder | Register::Digits) => {
             format!("tail{}.{register}", rank.saturating_sub(HEAD_RANKS))
         }
         _ => format!("{rank_name}.{register}"),
@@ -53,7 +55,7 @@ pub fn register_name(rank: usize, rank_name: &str, register: &str) -> String {
 }
 
 impl Datapath {
-    /// The ROM.
+    /// The ROM from which rank 0 takes its rows.
     #[must_use]
     pub const fn rom(&self) -> &Rom {
         &self.rom
@@ -71,10 +73,16 @@ impl Datapath {
         &self.front_end
     }
 
-    /// The three multiply-add lines, where there is a polynomial.
+    /// The multiply-add lines of the polynomial, in the order of their stages; none where there is no polynomial.
     #[must_use]
-    pub const fn stages(&self) -> Option<&[MultiplyAdd; STAGES]> {
-        self.stages.as_ref()
+    pub fn stages(&self) -> &[MultiplyAdd] {
+        self.stages.lines()
+    }
+
+    /// The degree of the polynomial, and the number of its stages; 0 where there is no polynomial.
+    #[must_use]
+    pub const fn degree(&self) -> usize {
+        self.stages.degree()
     }
 
     /// The divider, where there is one.
@@ -108,10 +116,14 @@ impl Datapath {
         HEAD_RANKS + self.middle_ranks() + 1
     }
 
+    /// Ranks of the divider: its divisor's, and those of its quotient bits.
+    #[must_use]
+    pub fn divider_ranks(&self) -> usize {
+        self.divider.map_or(0, |divider| 1 + divider.digit_stages() as usize)
+    }
+
     fn middle_ranks(&self) -> usize {
-        let polynomial = if self.stages.is_some() { STAGES } else { 0 };
-        let tail = self.divider.map_or(0, |divider| 1 + divider.digit_stages() as usize);
-        polynomial.max(tail)
+        self.degree().max(self.divider_ranks())
     }
 
     /// The name of a rank, as in traces and waves.
@@ -121,7 +133,7 @@ impl Datapath {
             0 => "fetch".to_owned(),
             1 => "front_end".to_owned(),
             _ if rank + 1 == self.rank_count() => "clamp".to_owned(),
-            _ if rank < HEAD_RANKS + STAGES && self.stages.is_some() => {
+            _ if rank < HEAD_RANKS + self.degree() => {
                 format!("stage{}", rank + 1 - HEAD_RANKS)
             }
             _ => format!("tail{}", rank - HEAD_RANKS),
@@ -130,8 +142,8 @@ impl Datapath {
 
     /// The name of a register of a rank, with its part's in front: see [`register_name`].
     #[must_use]
-    pub fn register_name(&self, rank: usize, register: &Register) -> String {
-        register_name(rank, &self.rank_name(rank), register.name)
+    pub fn register_name(&self, rank: usize, register: &RankRegister) -> String {
+        register_name(rank, &self.rank_name(rank), register.name())
     }
 
     /// What rank 0 takes in: address, x, and the ROM word.
@@ -150,11 +162,7 @@ impl Datapath {
     /// What `rank` (1 and up) takes in when the rank before it holds `before`.
     #[must_use]
     pub fn advance(&self, rank: usize, before: &Signals) -> Signals {
-        if self.narrow {
-            self.advance_in::<i64>(rank, before)
-        } else {
-            self.advance_in::<i128>(rank, before)
-        }
+        if self.narrow { self.advance_in::<i64>(rank, before) } else { self.advance_in::<i128>(rank, before) }
     }
 
     fn advance_in<L: Lane>(&self, rank: usize, before: &Signals) -> Signals {
@@ -172,68 +180,37 @@ impl Datapath {
 
     #[inline]
     fn front_end_rank<L: Lane>(&self, before: &Signals) -> Signals {
-        let given = L::from_bits(before.x);
-        let x = self.front_end.clamp_input(given);
-        let region = if before.status.contains(Status::NO_WORD) {
-            Region::Zero
-        } else {
-            self.front_end.region(given, L::from_bits(self.front_end.cut(&before.row)))
-        };
-        let row = &before.row;
-        let hand_over = L::from_bits(self.front_end.hand_over(row));
-        let outer = self.front_end.is_outer(x, region, hand_over);
-        let (start, shift, row) = if outer {
-            (hand_over, row.shift_outer(), row.in_outer())
-        } else {
-            (L::from_bits(self.front_end.one), row.shift(), *row)
-        };
+        let entered = Lines::of(self).enter::<L, Anything>(before, L::from_bits(before.x));
         Signals {
-            x: x.to_bits(),
-            region,
-            row,
-            status: before
-                .status
-                .with(Status::ABOVE_ONE, given > L::from_bits(self.front_end.one))
-                .with(Status::FACING_AWAY, given < L::ZERO)
-                .with(
-                    Status::OUT_OF_DOMAIN,
-                    self.front_end.outside(given, region)
-                        && !before.status.contains(Status::NO_WORD),
-                ),
-            v: self.front_end.variable(x, region, start, shift).to_bits(),
-            tail_x: self.front_end.tail_x(x, region).to_bits(),
+            x: entered.x.to_bits(),
+            region: entered.region,
+            row: before.row.in_segment(entered.segment),
+            status: entered.status[1],
+            v: entered.v.to_bits(),
+            tail_x: entered.tail_x.to_bits(),
             ..*before
         }
     }
 
     #[inline]
     fn polynomial_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
-        let Some(stages) = &self.stages else { return };
-        let Some(stage) = stages.get(index) else {
+        let degree = self.degree();
+        if index >= degree {
             return;
-        };
-        let row = &signals.row;
-        let (multiplicand, addend) = match index {
-            0 => (row.get(FieldName::C3), row.get(FieldName::C2)),
-            1 => (signals.t1, row.get(FieldName::C1)),
-            _ => (signals.t2, row.get(FieldName::C0)),
-        };
-        let lane = L::from_bits;
-        let t = stage.apply(lane(multiplicand), lane(signals.v), lane(addend)).to_bits();
-        match index {
-            0 => signals.t1 = t,
-            1 => signals.t2 = t,
-            _ => signals.t3 = t,
         }
+        let before = if index == 0 { Register::C(0, degree) } else { Register::T(index) };
+        let addend = Register::C(0, degree - 1 - index);
+        let [t, v, addend] = [before, Register::V, addend].map(|register| L::from_bits(signals.get(register)));
+        signals.t[index] = Lines::of(self).stage(index, t, v, addend).to_bits();
     }
 
     #[inline]
     fn tail_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
         let Some(divider) = &self.divider else { return };
-        let row = &signals.row;
         let division = if index == 0 {
-            let (a, b) = (row.get(FieldName::TailA), row.get(FieldName::TailB));
-            divider.begin(L::from_bits(signals.tail_x), L::from_bits(a), L::from_bits(b))
+            let [x, a, b] =
+                [Register::TailX, Register::TailA, Register::TailB].map(|register| L::from_bits(signals.get(register)));
+            divider.begin(x, a, b)
         } else {
             divider.digit_stage(index as u32 - 1, signals.division.widened::<L>())
         };
@@ -242,20 +219,15 @@ impl Datapath {
 
     #[inline]
     fn clamp_rank<L: Lane>(&self, before: &Signals) -> Signals {
-        let one = L::from_bits(self.output_one);
         let mut after = *before;
-        after.intensity = match before.region {
-            Region::Zero => 0,
-            Region::Polynomial => {
-                let intensity = clamp(L::from_bits(before.t3), one).to_bits();
-                after.status = before.status.with(Status::CLAMPED, intensity != before.t3);
-                intensity
-            }
-            // A tail answers only where there is a divider.
-            Region::Tail => self
-                .divider
-                .map_or(0, |divider| divider.finish(before.division.widened::<L>(), one).to_bits()),
-        };
+        let last = L::from_bits(before.get(Register::T(self.degree())));
+        let (answer, status) = Lines::of(self).answer(before.region, last, before.status);
+        (after.intensity, after.status) = (answer.to_bits(), status);
+        // A tail answers only where there is a divider.
+        if let (Region::Tail, Some(divider)) = (before.region, &self.divider) {
+            let one = L::from_bits(self.output_one);
+            after.intensity = divider.finish(before.division.widened::<L>(), one).to_bits();
+        }
         after
     }
 
@@ -277,10 +249,10 @@ impl Datapath {
         (1..self.rank_count()).fold(self.fetch(address, x), |held, rank| self.advance(rank, &held))
     }
 
-    /// True where the polynomial has a second segment.
+    /// Segments of the polynomial; 1 where there is no polynomial.
     #[must_use]
-    pub const fn has_two_segments(&self) -> bool {
-        self.formats.hand_over.is_some()
+    pub const fn segment_count(&self) -> usize {
+        self.front_end.segments
     }
 
     /// The row at an address. An address without a word reads the first row: its values are in every
@@ -295,5 +267,17 @@ impl Datapath {
     pub(super) fn row_at(&self, address: u32) -> &Row {
         const NONE: &Row = &Row::EMPTY;
         self.rom.row(address).unwrap_or(NONE)
+    }
+}
+
+/// What rank 0 holds is what the front end is given.
+impl Fetched for Signals {
+    #[inline(always)]
+    fn get(&self, field: Register) -> i64 {
+        self.row.get(field)
+    }
+    #[inline(always)]
+    fn known(&self) -> bool {
+        !self.status.contains(Status::NO_WORD)
     }
 }

@@ -5,10 +5,12 @@
 //! between what it gives at the corners. An interval that cannot beat the best value found is left
 //! alone, another is halved, down to single x, where the corners are one point and the value is exact.
 
-use crate::rom::{FieldName, Row};
+use crate::registers::{MAX_DEGREE, Register};
+use crate::rom::Row;
 use crate::rounding::Lane;
 
 use super::Datapath;
+use super::compose::{Anything, Lines, Segment};
 use super::front_end::Region;
 use super::tail::Divider;
 
@@ -20,9 +22,9 @@ const MOST_OF_ROW: u64 = 1 << 16;
 /// A value with the place where it is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Extreme {
-    /// The register's bits.
+    /// The value, as the register's bits.
     pub bits: i64,
-    /// The ROM row.
+    /// The address of the ROM row at which it is taken.
     pub address: u32,
     /// The bits of x; none where it is what the part is fed when it does not answer.
     pub x: Option<i64>,
@@ -31,31 +33,39 @@ pub struct Extreme {
 /// The least and the greatest value of a register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reach {
-    /// The least.
+    /// The least value, and where the register takes it.
     pub least: Extreme,
-    /// The greatest.
+    /// The greatest value, and where the register takes it.
     pub greatest: Extreme,
 }
 
 /// What the registers of the polynomial take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PolynomialReach {
-    /// The variable.
+    /// The values of the polynomial's variable v.
     pub v: Reach,
-    /// t1, t2, t3.
-    pub lines: [Reach; 3],
+    /// The results of the stages: t1, t2, …
+    pub lines: Vec<Reach>,
+}
+
+impl PolynomialReach {
+    /// Of the last stage's result.
+    #[must_use]
+    pub fn last(&self) -> &Reach {
+        self.lines.last().unwrap_or(&self.v)
+    }
 }
 
 /// What the registers of the divider take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TailReach {
-    /// The divider's x.
+    /// The values of the x that the divider is given.
     pub x: Reach,
-    /// D.
+    /// The values of the divisor D.
     pub divisor: Reach,
     /// The remainder before the first quotient bit. Later ones are less than D, and no more is said.
     pub first_remainder: Reach,
-    /// The finished quotient.
+    /// The values of the quotient after its last bit.
     pub quotient: Reach,
 }
 
@@ -66,28 +76,32 @@ struct Interval<L> {
     high: L,
 }
 
-/// v, t1, t2, t3 for an interval of x.
-type Lines<L> = [Interval<L>; 4];
+/// v, t1, t2, … for an interval of x.
+type Intervals<L> = [Interval<L>; 1 + MAX_DEGREE];
 
 impl Datapath {
-    /// What the registers of the polynomial take, where there is one, and where it is found in a time that anybody
+    /// What the registers of the polynomial take, where there is one, and where it is found in a time that a caller
     /// waits for.
     #[must_use]
     pub fn polynomial_reach(&self) -> Option<PolynomialReach> {
-        self.stages?;
+        let stages = self.degree();
+        if stages == 0 {
+            return None;
+        }
         let reach = |line| {
             if self.narrow { self.line_reach::<i64>(line) } else { self.line_reach::<i128>(line) }
         };
-        Some(PolynomialReach { v: reach(0)?, lines: [reach(1)?, reach(2)?, reach(3)?] })
+        Some(PolynomialReach { v: reach(0)?, lines: (1..=stages).map(reach).collect::<Option<_>>()? })
     }
 
-    /// True where t3 can pass 1, so that the clamp has something to compare. The range analysis behind t3's format has
-    /// room for errors that need not meet; where a domain is all that is asked, the values themselves decide.
+    /// True where the last stage's result can pass 1, so that the clamp has something to compare. The range analysis
+    /// behind its format has room for errors that need not meet; where a domain is all that is asked, the values
+    /// themselves decide.
     #[must_use]
-    pub fn t3_exceeds_one(&self) -> bool {
+    pub fn last_exceeds_one(&self) -> bool {
         let one = self.output_one;
-        let room = self.formats.polynomial.as_ref().is_some_and(|f| f.t3.max_bits() > one);
-        let reached = || self.polynomial_reach().is_none_or(|r| r.lines[2].greatest.bits > one);
+        let room = self.formats.polynomial.as_ref().is_some_and(|f| f.last().max_bits() > one);
+        let reached = || self.polynomial_reach().is_none_or(|r| r.last().greatest.bits > one);
         room && (!self.front_end.guarded || reached())
     }
 
@@ -134,58 +148,66 @@ impl Datapath {
         best.map(|(_, extreme)| extreme)
     }
 
-    /// True where a row's polynomial has an x for which it does not answer, or, like the first row, is read for addresses
-    /// without a word.
+    /// True where a row's polynomial has an x for which it does not answer, or, like the first row, is read for
+    /// addresses without a word.
     fn can_be_idle(&self, address: u32) -> bool {
         let cut = self.front_end.cut(&self.row(address));
         address == 0 || cut > 0 || self.formats.input.is_signed()
     }
 
-    /// The first and the last x at which each segment of a row answers; only of those that do.
-    fn polynomial_spans(&self, row: &Row) -> impl Iterator<Item = (i64, i64)> {
+    /// The first and the last x at which each segment of a row answers, as x rises; only of those that do. None where
+    /// there is no polynomial.
+    #[must_use]
+    pub fn polynomial_spans(&self, row: &Row) -> Vec<(i64, i64)> {
+        if self.degree() == 0 {
+            return Vec::new();
+        }
         let (cut, greatest) = (self.front_end.cut(row).max(0), self.front_end.greatest);
-        let hand_over = self.front_end.hand_over(row);
-        let spans = [(cut, (hand_over - 1).min(greatest)), (cut.max(hand_over), greatest)];
-        spans.into_iter().filter(|(first, last)| first <= last)
+        let mut end = greatest;
+        let mut spans = Vec::new();
+        for segment in 0..self.segment_count() {
+            let next = segment + 1;
+            let hands_over = next < self.segment_count();
+            let least = if hands_over { self.front_end.hand_over(row, next).max(cut) } else { cut };
+            spans.push((least, end));
+            end = end.min(least - 1);
+        }
+        spans.into_iter().rev().filter(|(first, last)| first <= last).collect()
     }
 
     /// What the polynomial is given for x from `first` to `last`, both of one segment, and what its lines
     /// make of it.
-    fn lines<L: Lane>(&self, row: &Row, first: i64, last: i64) -> Lines<L> {
-        let outer = first < self.front_end.hand_over(row);
-        let (start, shift, row) = if outer {
-            (self.front_end.hand_over(row), row.shift_outer(), row.in_outer())
-        } else {
-            (self.front_end.one, row.shift(), *row)
+    fn lines<L: Lane>(&self, row: &Row, first: i64, last: i64) -> Intervals<L> {
+        let index = self.front_end.segment_of(row, first);
+        let segment = Lines::of(self).segment::<L, Anything>(row, index);
+        let variable = |x| {
+            let x = L::from_bits(x);
+            self.front_end.variable(x, Region::Polynomial, segment.start, segment.shift)
         };
-        let start = L::from_bits(start);
-        let variable =
-            |x| self.front_end.variable(L::from_bits(x), Region::Polynomial, start, shift);
-        self.of_variable(&row, ordered(variable(first), variable(last)))
+        self.of_variable(&segment, ordered(variable(first), variable(last)))
     }
 
     /// The same where the polynomial does not answer.
-    fn idle<L: Lane>(&self, row: &Row) -> Lines<L> {
-        let v = self.front_end.variable(L::ZERO, Region::Zero, L::ZERO, row.shift());
-        self.of_variable(row, Interval { low: v, high: v })
+    fn idle<L: Lane>(&self, row: &Row) -> Intervals<L> {
+        let segment = Lines::of(self).segment::<L, Anything>(row, 0);
+        let v = self.front_end.variable(L::ZERO, Region::Zero, L::ZERO, segment.shift);
+        self.of_variable(&segment, Interval { low: v, high: v })
     }
 
-    fn of_variable<L: Lane>(&self, row: &Row, v: Interval<L>) -> Lines<L> {
-        let mut lines = [v; 4];
-        let Some(stages) = &self.stages else { return lines };
-        let c3 = L::from_bits(row.get(FieldName::C3));
-        let mut multiplicand = Interval { low: c3, high: c3 };
-        for (index, field) in [FieldName::C2, FieldName::C1, FieldName::C0].into_iter().enumerate()
-        {
-            let addend = L::from_bits(row.get(field));
-            let at = |m, v| stages[index].apply(m, v, addend);
-            let first = ordered(at(multiplicand.low, v.low), at(multiplicand.low, v.high));
-            let second = ordered(at(multiplicand.high, v.low), at(multiplicand.high, v.high));
-            multiplicand =
-                Interval { low: first.low.min(second.low), high: first.high.max(second.high) };
-            lines[index + 1] = multiplicand;
+    fn of_variable<L: Lane>(&self, segment: &Segment<L>, v: Interval<L>) -> Intervals<L> {
+        let mut intervals = [v; 1 + MAX_DEGREE];
+        let degree = self.degree();
+        let highest = segment.c[degree];
+        let mut t = Interval { low: highest, high: highest };
+        for index in 0..degree {
+            let addend = segment.c[degree - 1 - index];
+            let at = |t, v| Lines::of(self).stage(index, t, v, addend);
+            let first = ordered(at(t.low, v.low), at(t.low, v.high));
+            let second = ordered(at(t.high, v.low), at(t.high, v.high));
+            t = Interval { low: first.low.min(second.low), high: first.high.max(second.high) };
+            intervals[index + 1] = t;
         }
-        lines
+        intervals
     }
 
     /// What the registers of the divider take, where there is one. They all rise or fall with x, so
@@ -197,11 +219,8 @@ impl Datapath {
         for address in 0..self.rom.depth() as u32 {
             let row = self.row(address);
             for x in [0, self.last_of_tail(&row)] {
-                let here = if self.narrow {
-                    at_end::<i64>(&divider, &row, x)
-                } else {
-                    at_end::<i128>(&divider, &row, x)
-                };
+                let here =
+                    if self.narrow { at_end::<i64>(&divider, &row, x) } else { at_end::<i128>(&divider, &row, x) };
                 let here = here.map(|bits| {
                     let extreme = Extreme { bits, address, x: Some(x) };
                     Reach { least: extreme, greatest: extreme }
@@ -227,7 +246,7 @@ impl Datapath {
 /// x, D, the first remainder and the finished quotient.
 fn at_end<L: Lane>(divider: &Divider, row: &Row, x: i64) -> [i64; 4] {
     let bits = |field| L::from_bits(row.get(field));
-    let begun = divider.begin(L::from_bits(x), bits(FieldName::TailA), bits(FieldName::TailB));
+    let begun = divider.begin(L::from_bits(x), bits(Register::TailA), bits(Register::TailB));
     let stages = 0..divider.digit_stages();
     let ended = stages.fold(begun, |division, index| divider.digit_stage(index, division));
     [x, begun.divisor.to_bits(), begun.remainder.to_bits(), ended.digits.to_bits()]
@@ -293,9 +312,9 @@ mod tests {
             let datapath = design.datapath();
             if let Some(reach) = datapath.polynomial_reach() {
                 same(&reach.v, tried(datapath, 1, |s| s.v));
-                same(&reach.lines[0], tried(datapath, 2, |s| s.t1));
-                same(&reach.lines[1], tried(datapath, 3, |s| s.t2));
-                same(&reach.lines[2], tried(datapath, 4, |s| s.t3));
+                same(&reach.lines[0], tried(datapath, 2, |s| s.t[0]));
+                same(&reach.lines[1], tried(datapath, 3, |s| s.t[1]));
+                same(&reach.lines[2], tried(datapath, 4, |s| s.t[2]));
             }
             if let Some(reach) = datapath.tail_reach() {
                 let last = datapath.rank_count() - 2;

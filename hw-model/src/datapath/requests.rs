@@ -7,37 +7,35 @@
 
 use multiversion::multiversion;
 
-use crate::rom::{FieldName, Place, Row};
+use crate::registers::Register;
+use crate::rom::{Fetched, Place, Row};
 use crate::rounding::{Lane, Rounding};
 
-use super::block::Lines;
-use super::clamp::clamp;
+use super::compose::{Anything, Cubics, Known, Lines, Plain};
 use super::flight::{Flight, Logic};
 use super::front_end::Region;
+use super::keep::{Registers, Whole};
 use super::ranks::Datapath;
-use super::run::{Anything, Known, Plain};
 use super::signals::Status;
-use super::stage::MultiplyAdd;
-use super::tail::Division;
 
-/// So many requests and their results, of which `W` are evaluated together. Fill in addresses and x;
+/// `N` requests and their results, of which `W` are evaluated together. Fill in addresses and x;
 /// [`Logic::evaluate`] does the rest.
 #[derive(Debug, Clone)]
 pub struct Requests<const N: usize, const W: usize> {
-    /// ROM addresses.
+    /// The ROM address of each request.
     pub addresses: [u32; N],
     /// x, bits in the input format.
     pub xs: [i64; N],
     intensities: [i64; N],
-    /// Flags.
+    /// The status flags of each result, as in [`Status`](super::signals::Status).
     status: [i64; N],
-    /// [`Region`]s.
+    /// The [`Region`] that answers each request, as its number.
     regions: [i64; N],
     /// The words of the addresses under evaluation.
     words: Words<W>,
 }
 
-/// Where the results of so many requests go.
+/// Where the results of `W` requests go.
 struct Results<'a, const W: usize> {
     intensities: &'a mut [i64; W],
     status: &'a mut [i64; W],
@@ -47,49 +45,61 @@ struct Results<'a, const W: usize> {
 /// A list for each field of the ROM.
 #[derive(Debug, Clone)]
 struct Words<const W: usize> {
-    fields: [[i64; W]; FieldName::ALL.len()],
+    fields: [[i64; W]; Register::ROM_COUNT],
     /// 1 where the address has a word.
     known: [i64; W],
     /// The address that all of them are of: a sweep need not fetch again.
     all_of: Option<u32>,
 }
 
-/// Where a loop over requests finds their words.
-trait Fetched {
-    fn get(&self, name: FieldName, request: usize) -> i64;
-    fn known(&self, request: usize) -> bool;
+/// Where a loop over requests finds the word of each.
+trait FetchedOfEach {
+    fn of(&self, request: usize) -> impl Fetched;
 }
 
-impl<const W: usize> Fetched for Words<W> {
+/// The word of one of them.
+struct Word<'a, const W: usize> {
+    words: &'a Words<W>,
+    request: usize,
+}
+
+impl<const W: usize> Fetched for Word<'_, W> {
     #[inline(always)]
-    fn get(&self, name: FieldName, request: usize) -> i64 {
-        self.fields[name as usize][request]
+    fn get(&self, field: Register) -> i64 {
+        self.words.fields[field.index()][self.request]
     }
     #[inline(always)]
-    fn known(&self, request: usize) -> bool {
-        self.known[request] != 0
+    fn known(&self) -> bool {
+        self.words.known[self.request] != 0
+    }
+}
+
+impl<const W: usize> FetchedOfEach for Words<W> {
+    #[inline(always)]
+    fn of(&self, request: usize) -> impl Fetched {
+        Word { words: self, request }
     }
 }
 
 /// The one word of all requests: nothing is fetched in the loop.
-impl Fetched for Row {
+impl FetchedOfEach for &Row {
     #[inline(always)]
-    fn get(&self, name: FieldName, _: usize) -> i64 {
-        self.get(name)
-    }
-    #[inline(always)]
-    fn known(&self, _: usize) -> bool {
-        true
+    fn of(&self, _: usize) -> impl Fetched {
+        **self
     }
 }
 
-/// Up to so many requests, a loop over them becomes vector instructions only where all that it reads is in lists.
+/// Up to this number of requests, a loop over them becomes vector instructions only where all that it reads is in
+/// lists.
 const FEW: usize = 8;
 
 impl<const W: usize> Words<W> {
     /// Of one row: what is the same in all rows need not be collected again.
     fn of(row: &Row) -> Self {
-        let fields = FieldName::ALL.map(|name| [row.get(name); W]);
+        let mut fields = [[0; W]; Register::ROM_COUNT];
+        for field in Register::in_rom() {
+            fields[field.index()] = [row.get(field); W];
+        }
         Self { fields, known: [0; W], all_of: None }
     }
 
@@ -119,7 +129,7 @@ impl<const W: usize> Words<W> {
         }
         for field in datapath.rom.layout().fields() {
             if let Place::Stored { .. } = field.place {
-                let values = &mut self.fields[field.name as usize];
+                let values = &mut self.fields[field.name.index()];
                 for (value, row) in values.iter_mut().zip(rows) {
                     *value = row.get(field.name);
                 }
@@ -129,7 +139,7 @@ impl<const W: usize> Words<W> {
 }
 
 impl Datapath {
-    /// Room for requests.
+    /// Empty requests (address 0, x = 0) for this data path, to be filled in and evaluated.
     #[must_use]
     pub fn requests<const N: usize, const W: usize>(&self) -> Box<Requests<N, W>> {
         const { assert!(0 < W && W <= N) };
@@ -145,7 +155,7 @@ impl Datapath {
 }
 
 impl<const N: usize, const W: usize> Requests<N, W> {
-    /// The intensities.
+    /// The intensities of the last evaluation, bits in the output format, in the order of the requests.
     #[must_use]
     pub const fn intensities(&self) -> &[i64; N] {
         &self.intensities
@@ -197,7 +207,7 @@ impl Logic {
         ) {
             let results = Results { intensities, status, regions };
             match words.fetch(datapath, addresses) {
-                Some(word) => self.answer_all(datapath, word, xs, results),
+                Some(word) => self.answer_all(datapath, &word, xs, results),
                 None => self.answer_all(datapath, words, xs, results),
             }
         }
@@ -205,7 +215,7 @@ impl Logic {
     }
 
     #[inline(always)]
-    fn answer_all<F: Fetched, const W: usize>(
+    fn answer_all<F: FetchedOfEach, const W: usize>(
         &self,
         datapath: &Datapath,
         words: &F,
@@ -213,26 +223,21 @@ impl Logic {
         results: Results<'_, W>,
     ) {
         let Results { intensities, status, regions } = results;
-        let answer = match (self.plain, datapath.narrow, datapath.has_two_segments()) {
-            (Some((Rounding::NearestUp, true)), _, false) => {
-                answer::<i64, Plain<true, true>, F, false, W>
-            }
-            (Some((Rounding::NearestUp, true)), _, true) => {
-                answer::<i64, Plain<true, true>, F, true, W>
-            }
-            (Some((Rounding::NearestUp, false)), _, _) => {
-                answer::<i64, Plain<true, false>, F, true, W>
-            }
-            (_, true, _) => answer::<i64, Anything, F, true, W>,
-            (_, false, _) => answer::<i128, Anything, F, true, W>,
+        let one_segment = datapath.segment_count() == 1;
+        let answer = match (self.plain, datapath.narrow && self.lines.are_cubics()) {
+            (Some((Rounding::NearestUp, true)), _) if one_segment => answer::<i64, Plain<true, true, 1>, F, W>,
+            (Some((Rounding::NearestUp, true)), _) => answer::<i64, Plain<true, true, 2>, F, W>,
+            (Some((Rounding::NearestUp, false)), _) => answer::<i64, Plain<true, false, 2>, F, W>,
+            (_, true) => answer::<i64, Cubics, F, W>,
+            (_, false) if datapath.narrow => answer::<i64, Anything, F, W>,
+            (_, false) => answer::<i128, Anything, F, W>,
         };
         answer(&self.lines, words, xs, intensities, status, regions);
     }
 }
 
-/// `TWO`: there may be a second segment.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool, const W: usize>(
+fn answer<L: Lane, K: Known, F: FetchedOfEach, const W: usize>(
     lines: &Lines,
     words: &F,
     xs: &[i64; W],
@@ -240,106 +245,43 @@ fn answer<L: Lane, K: Known, F: Fetched, const TWO: bool, const W: usize>(
     status: &mut [i64; W],
     regions: &mut [i64; W],
 ) {
-    lines.polynomials::<L, K, F, TWO, W>(words, xs, intensities, status, regions);
+    let lines = K::lines(*lines);
+    // All but the division, in one loop: what one line gives the next need not be stored between.
+    for (request, &given) in xs.iter().enumerate() {
+        let row = words.of(request);
+        let composed = lines.compose::<L, K, Whole>(&row, L::from_bits(given), &Registers::WHOLE);
+        regions[request] = composed.entered.region as i64;
+        status[request] = composed.status.bits().into();
+        intensities[request] = composed.intensity.to_bits();
+    }
     if lines.divider.is_some() && regions.contains(&(Region::Tail as i64)) {
-        lines.tails::<L, K, F, W>(words, xs, intensities, regions);
+        lines.tails::<L, F, W>(words, xs, intensities, regions);
     }
 }
 
 impl Lines {
-    /// All but the division, in one loop: what one line gives the next need not be stored between.
     #[inline(always)]
-    fn polynomials<L: Lane, K: Known, F: Fetched, const TWO: bool, const W: usize>(
-        &self,
-        words: &F,
-        xs: &[i64; W],
-        intensities: &mut [i64; W],
-        flags: &mut [i64; W],
-        regions: &mut [i64; W],
-    ) {
-        // Where there is no polynomial, all its operands are 0, and what is computed of them too.
-        let stages = self.stages.unwrap_or([MultiplyAdd::NOTHING; 3]);
-        let lines = K::lines(Self { stages: Some(stages), ..*self });
-        let Self { front_end, stages: Some([stage1, stage2, stage3]), output_one, .. } = lines
-        else {
-            return;
-        };
-        let (input_one, one) = (L::from_bits(front_end.one), L::from_bits(output_one));
-        for (request, &given) in xs.iter().enumerate() {
-            let field = |name| L::from_bits(words.get(name, request));
-            let given = L::from_bits(given);
-            let x = front_end.clamp_input(given);
-            let region = front_end.region(given, field(FieldName::Cut) << front_end.cut_up);
-            let region = if words.known(request) { region } else { Region::Zero };
-            let hand_over = field(FieldName::HandOver) << front_end.hand_over_up;
-            let outer = TWO && front_end.is_outer(x, region, hand_over);
-            let start = if outer { hand_over } else { input_one };
-            // Both are loaded: a choice of the address would not fit into vectors.
-            let either = |first, second| {
-                let (first, second) = (words.get(first, request), words.get(second, request));
-                L::from_bits(if outer { second } else { first })
-            };
-            let shift = either(FieldName::Shift, FieldName::ShiftOuter).to_bits() as u32;
-            let v = front_end.variable(x, region, start, shift);
-            let (c3, c2) = (
-                either(FieldName::C3, FieldName::C3Outer),
-                either(FieldName::C2, FieldName::C2Outer),
-            );
-            let t1 = stage1.apply(c3, v, c2);
-            let t2 = stage2.apply(t1, v, either(FieldName::C1, FieldName::C1Outer));
-            let t3 = stage3.apply(t2, v, either(FieldName::C0, FieldName::C0Outer));
-            let answers = region == Region::Polynomial;
-            let answered = clamp(t3, one);
-            let status = Status::default()
-                .with(Status::NO_WORD, !words.known(request))
-                .with(Status::ABOVE_ONE, given > input_one)
-                .with(Status::FACING_AWAY, given < L::ZERO)
-                .with(
-                    Status::OUT_OF_DOMAIN,
-                    words.known(request) && front_end.outside(given, region),
-                )
-                .with(Status::CLAMPED, answers && answered != t3);
-            regions[request] = region as i64;
-            flags[request] = status.bits().into();
-            intensities[request] = if answers { answered.to_bits() } else { 0 };
-        }
-    }
-
-    #[inline(always)]
-    fn tails<L: Lane, K: Known, F: Fetched, const W: usize>(
+    fn tails<L: Lane, F: FetchedOfEach, const W: usize>(
         &self,
         words: &F,
         xs: &[i64; W],
         intensities: &mut [i64; W],
         regions: &[i64; W],
     ) {
-        let Self { front_end, divider: Some(divider), output_one, .. } = K::lines(*self) else {
-            return;
+        let Some(divider) = &self.divider else { return };
+        let answers = |request: usize| regions[request] == Region::Tail as i64;
+        let operands = |request: usize| {
+            let x = self.front_end.clamp_input(L::from_bits(xs[request]));
+            let region = if answers(request) { Region::Tail } else { Region::Zero };
+            let row = words.of(request);
+            let [a, b] = [Register::TailA, Register::TailB].map(|name| L::from_bits(row.get(name)));
+            [self.front_end.tail_x(x, region), a, b]
         };
-        let mut divisors = [L::ONE; W];
-        let mut remainders = [L::ZERO; W];
-        let mut digits = [L::ZERO; W];
-        for request in 0..W {
-            let x = front_end.clamp_input(L::from_bits(xs[request]));
-            let answers = regions[request] == Region::Tail as i64;
-            let x = front_end.tail_x(x, if answers { Region::Tail } else { Region::Zero });
-            let [a, b] = [FieldName::TailA, FieldName::TailB]
-                .map(|name| L::from_bits(words.get(name, request)));
-            let begun = divider.begin(x, a, b);
-            (divisors[request], remainders[request]) = (begun.divisor, begun.remainder);
-            digits[request] = begun.digits;
-        }
-        for _ in 0..divider.digit_count {
-            divider.digit_of_all(&divisors, &mut remainders, &mut digits);
-        }
-        let one = L::from_bits(output_one);
-        for request in 0..W {
-            let (divisor, remainder) = (divisors[request], remainders[request]);
-            let division = Division { divisor, remainder, digits: digits[request] };
-            let quotient = divider.finish(division, one).to_bits();
-            let answers = regions[request] == Region::Tail as i64;
-            let other = intensities[request];
-            intensities[request] = if answers { quotient } else { other };
+        let divisions = divider.divide::<L, L, Whole, W>(W, operands, self.output_one, &Registers::WHOLE, |_, _| {});
+        let quotients = divisions.quotients().iter().zip(regions);
+        for (intensity, (quotient, &region)) in intensities.iter_mut().zip(quotients) {
+            let answers = region == Region::Tail as i64;
+            *intensity = if answers { quotient.to_bits() } else { *intensity };
         }
     }
 }

@@ -1,22 +1,21 @@
 //! Consecutive x of one exponent: a sweep.
 //!
-//! x need not be stored, and needs no region of its own: between two of the places 0, cut, hand-over and
+//! x need not be stored, and needs no region of its own: between two of the places 0, cut, hand-overs and
 //! greatest x one part answers for all. So each piece of the run is a loop without a choice in it, and a piece whose
 //! answer is zero is filled. What is known of a configuration (its rounding mode, that its lines are
 //! plain, how wide a lane they need) is settled before the loop, which is compiled for each case.
 
 use multiversion::multiversion;
 
-use crate::rom::{FieldName, Row};
+use crate::registers::{MAX_DEGREE, Register};
+use crate::rom::{Fetched, Row};
 use crate::rounding::{Lane, Rounding};
 
-use super::block::{Lines, Segment};
-use super::clamp::clamp;
-use super::front_end::Region;
+use super::compose::{Anything, Cubics, Known, Lines, Plain};
+use super::front_end::{FrontEnd, Region};
+use super::keep::{Registers, Whole};
 use super::lanes::Half;
 use super::ranks::Datapath;
-use super::stage::MultiplyAdd;
-use super::tail::Division;
 
 /// Divisions under way together: their registers stay in the first-level cache.
 const DIVISIONS: usize = 128;
@@ -63,78 +62,67 @@ fn narrow_run_long(lines: Lines, row: &Row, x: i64, intensities: &mut [i64]) {
     lines.run::<i64, i64>(row, x, intensities);
 }
 
-/// What is known of the lines when a loop over them is compiled.
-pub(super) trait Known {
-    /// The same lines, with what is known of them as constants.
-    fn lines(lines: Lines) -> Lines;
+/// One segment of a row, as the row of one segment: it answers for every x of a piece.
+struct OneSegment {
+    shift: i64,
+    c: [i64; MAX_DEGREE + 1],
 }
 
-/// A data path of which nothing is known when the loop is compiled: every line is asked what it does.
-pub(super) struct Anything;
-
-/// Every line rounds to the nearest, a tie up (otherwise down), and is plain, in the centred form, which subtracts
-/// (otherwise in the power form).
-pub(super) struct Plain<const NEAREST: bool, const SUBTRACT: bool>;
-
-impl Known for Anything {
-    #[inline(always)]
-    fn lines(lines: Lines) -> Lines {
-        lines
+impl OneSegment {
+    fn of(row: &Row, segment: usize) -> Self {
+        let c = std::array::from_fn(|power| row.get(Register::C(segment, power)));
+        Self { shift: row.get(Register::Shift(segment)), c }
     }
 }
 
-impl<const NEAREST: bool, const SUBTRACT: bool> Known for Plain<NEAREST, SUBTRACT> {
+impl Fetched for OneSegment {
     #[inline(always)]
-    fn lines(lines: Lines) -> Lines {
-        let mode = if NEAREST { Rounding::NearestUp } else { Rounding::Floor };
-        let Lines { front_end, stages, divider, .. } = lines;
-        Lines {
-            front_end: front_end.known_plain(SUBTRACT, mode),
-            stages: stages
-                .map(|stages| stages.map(|stage| stage.rounded_by(mode).known_plain(SUBTRACT))),
-            divider: divider.map(|divider| divider.rounded_by(mode)),
-            ..lines
+    fn get(&self, field: Register) -> i64 {
+        match field {
+            Register::C(_, power) => self.c[power],
+            Register::Shift(_) => self.shift,
+            _ => 0,
         }
+    }
+    #[inline(always)]
+    fn known(&self) -> bool {
+        true
+    }
+    #[inline(always)]
+    fn region<L: Lane>(&self, _: &FrontEnd, _: L) -> Region {
+        Region::Polynomial
     }
 }
 
 impl Lines {
-    /// The mode of every line, and whether they are of the centred form, where they have one in common and are
-    /// plain.
-    pub(super) fn plainly_rounded(&self) -> Option<(Rounding, bool)> {
-        let mode = self.rounding()?;
-        let plain = |centred: &bool| {
-            let alike = |stage: &MultiplyAdd| stage.is_plain() && stage.subtracts() == *centred;
-            self.front_end.is_plain(*centred) && self.stages.iter().flatten().all(alike)
-        };
-        [true, false].into_iter().find(plain).map(|centred| (mode, centred))
-    }
-
     /// A run, products in lanes `L` and divisions in lanes `D`.
     #[inline(always)]
     fn run<L: Lane, D: Lane>(&self, row: &Row, x: i64, intensities: &mut [i64]) {
-        match self.plainly_rounded() {
-            Some((Rounding::NearestUp, true)) => {
-                self.pieces::<L, D, Plain<true, true>>(row, x, intensities);
+        match (self.plainly_rounded(), self.are_cubics()) {
+            (Some((Rounding::NearestUp, true)), _) => {
+                self.pieces::<L, D, Plain<true, true, 1>>(row, x, intensities);
             }
-            Some((Rounding::NearestUp, false)) => {
-                self.pieces::<L, D, Plain<true, false>>(row, x, intensities);
+            (Some((Rounding::NearestUp, false)), _) => {
+                self.pieces::<L, D, Plain<true, false, 1>>(row, x, intensities);
             }
-            Some((Rounding::Floor, true)) => {
-                self.pieces::<L, D, Plain<false, true>>(row, x, intensities);
+            (Some((Rounding::Floor, true)), _) => {
+                self.pieces::<L, D, Plain<false, true, 1>>(row, x, intensities);
             }
-            Some((Rounding::Floor, false)) => {
-                self.pieces::<L, D, Plain<false, false>>(row, x, intensities);
+            (Some((Rounding::Floor, false)), _) => {
+                self.pieces::<L, D, Plain<false, false, 1>>(row, x, intensities);
             }
-            _ => self.pieces::<L, D, Anything>(row, x, intensities),
+            (_, true) => self.pieces::<L, D, Cubics>(row, x, intensities),
+            (_, false) => self.pieces::<L, D, Anything>(row, x, intensities),
         }
     }
 
     #[inline(always)]
     fn pieces<L: Lane, D: Lane, K: Known>(&self, row: &Row, mut x: i64, mut rest: &mut [i64]) {
         let end = self.front_end.greatest + 1;
-        let (cut, hand_over) = (self.front_end.cut(row), self.front_end.hand_over(row));
-        for until in [0, cut.min(end), hand_over.min(end), end, i64::MAX] {
+        let cut = self.front_end.cut(row);
+        let starts = (1..self.front_end.segments).rev().map(|k| self.front_end.hand_over(row, k));
+        let within = std::iter::once(cut).chain(starts).map(|place| place.min(end));
+        for until in std::iter::once(0).chain(within).chain([end, i64::MAX]) {
             let count = usize::try_from(until.saturating_sub(x)).unwrap_or(0).min(rest.len());
             let (piece, others) = rest.split_at_mut(count);
             if !piece.is_empty() {
@@ -162,29 +150,16 @@ impl Lines {
 
     #[inline(always)]
     fn polynomial_piece<L: Lane, K: Known>(&self, row: &Row, first: i64, piece: &mut [i64]) {
+        let index = self.front_end.segment_of(row, self.front_end.clamp_input(first));
         // Copies: a loop that writes must not have to read these again.
-        let Self { front_end, stages: Some([stage1, stage2, stage3]), output_one, .. } =
-            K::lines(*self)
-        else {
-            return;
-        };
-        // One segment answers for all of the piece: see `pieces`.
-        let clamped = front_end.clamp_input(L::from_bits(first));
-        let hand_over = L::from_bits(front_end.hand_over(row));
-        let Segment { start, shift, c: [c0, c1, c2, c3] } =
-            if front_end.is_outer(clamped, Region::Polynomial, hand_over) {
-                Segment::outer(row, hand_over)
-            } else {
-                Segment::first(row, L::from_bits(front_end.one))
-            };
-        let one = L::from_bits(output_one);
+        let segment = OneSegment::of(row, index);
+        let one = self.front_end.start(row, index);
+        let front_end = FrontEnd { one, segments: 1, ..self.front_end };
+        let lines = K::lines(Self { front_end, ..*self });
         for (index, intensity) in piece.iter_mut().enumerate() {
-            let x = front_end.clamp_input(L::from_bits(first + index as i64));
-            let v = front_end.variable(x, Region::Polynomial, start, shift);
-            let t1 = stage1.apply(c3, v, c2);
-            let t2 = stage2.apply(t1, v, c1);
-            let t3 = stage3.apply(t2, v, c0);
-            *intensity = clamp(t3, one).to_bits();
+            let x = L::from_bits(first + index as i64);
+            let composed = lines.compose::<L, K, Whole>(&segment, x, &Registers::WHOLE);
+            *intensity = composed.intensity.to_bits();
         }
     }
 
@@ -193,28 +168,18 @@ impl Lines {
         let Self { front_end, divider: Some(divider), output_one, .. } = K::lines(*self) else {
             return;
         };
-        let a = L::from_bits(row.get(FieldName::TailA));
-        let b = L::from_bits(row.get(FieldName::TailB));
-        let one = D::from_bits(output_one);
-        let mut divisors = [D::ONE; DIVISIONS];
-        let mut remainders = [D::ZERO; DIVISIONS];
-        let mut digits = [D::ZERO; DIVISIONS];
+        let [a, b] = [Register::TailA, Register::TailB].map(|name| L::from_bits(row.get(name)));
         for (first, chunk) in (first..).step_by(DIVISIONS).zip(piece.chunks_mut(DIVISIONS)) {
-            let lanes = divisors.iter_mut().zip(&mut remainders).zip(&mut digits);
-            for (x, ((divisor, remainder), digits)) in (first..).zip(lanes).take(chunk.len()) {
-                let x = front_end.clamp_input(L::from_bits(x));
-                let begun = divider.begin(x, a, b);
-                *divisor = D::from_bits(begun.divisor.to_bits());
-                *remainder = D::from_bits(begun.remainder.to_bits());
-                *digits = D::from_bits(begun.digits.to_bits());
-            }
-            for _ in 0..divider.digit_count {
-                divider.digit_of_all(&divisors, &mut remainders, &mut digits);
-            }
-            let lanes = divisors.iter().zip(&remainders).zip(&digits);
-            for (intensity, ((&divisor, &remainder), &digits)) in chunk.iter_mut().zip(lanes) {
-                let division = Division { divisor, remainder, digits };
-                *intensity = divider.finish(division, one).to_bits();
+            let operands = |index: usize| [front_end.clamp_input(L::from_bits(first + index as i64)), a, b];
+            let divisions = divider.divide::<L, D, Whole, DIVISIONS>(
+                chunk.len(),
+                operands,
+                output_one,
+                &Registers::WHOLE,
+                |_, _| {},
+            );
+            for (intensity, quotient) in chunk.iter_mut().zip(divisions.quotients()) {
+                *intensity = quotient.to_bits();
             }
         }
     }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::format::QFormat;
+use crate::registers::{MAX_DEGREE, Register};
 use crate::rom::Row;
 
 use super::front_end::Region;
@@ -66,11 +67,8 @@ impl Status {
 
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let names: Vec<&str> = Self::NAMES
-            .iter()
-            .filter(|(flag, _)| self.contains(*flag))
-            .map(|&(_, name)| name)
-            .collect();
+        let names: Vec<&str> =
+            Self::NAMES.iter().filter(|(flag, _)| self.contains(*flag)).map(|&(_, name)| name).collect();
         f.pad(&if names.is_empty() { "-".to_owned() } else { names.join("+") })
     }
 }
@@ -91,35 +89,64 @@ pub struct Signals {
     pub region: Region,
     /// The polynomial's variable, x or u.
     pub v: i64,
-    /// c2 ± c3·v.
-    pub t1: i64,
-    /// c1 ± t1·v.
-    pub t2: i64,
-    /// c0 ± t2·v, in the output's unit.
-    pub t3: i64,
+    /// The results of the stages: t1 first; the last of the polynomial's is in the output's unit.
+    pub t: [i64; MAX_DEGREE],
     /// The divider's x: x where the tail answers, else 0.
     pub tail_x: i64,
     /// The division under way.
     pub division: Division<i64>,
-    /// The result.
+    /// The pipeline's answer, bits in the output format.
     pub intensity: i64,
 }
 
-/// One register of a rank.
-#[derive(Clone, Copy)]
-pub struct Register {
-    /// Its name in traces, waves, vectors and RTL.
-    pub name: &'static str,
+impl Signals {
+    /// The bits of a register. Of a coefficient: that of the first segment, in whose place from the front end on the
+    /// one that answers stands.
+    #[must_use]
+    pub fn get(&self, register: Register) -> i64 {
+        match register {
+            Register::X => self.x,
+            Register::V => self.v,
+            Register::T(stage) => self.t.get(stage.wrapping_sub(1)).copied().unwrap_or_default(),
+            Register::TailX => self.tail_x,
+            Register::Divisor => self.division.divisor,
+            Register::Remainder => self.division.remainder,
+            Register::Digits => self.division.digits,
+            Register::Region => self.region as i64,
+            Register::Status => self.status.bits().into(),
+            Register::Intensity => self.intensity,
+            field => self.row.get(field),
+        }
+    }
+}
+
+/// A register of a rank.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct RankRegister {
+    /// Which register.
+    pub register: Register,
     /// Its format.
     pub format: QFormat,
     /// True in the rank that computes the value, false where it is only carried along.
     pub computed: bool,
-    /// Reads its bits.
-    pub bits: fn(&Signals) -> i64,
 }
 
-impl fmt::Debug for Register {
+impl RankRegister {
+    /// Its name in traces, waves, vectors and RTL.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.register.name()
+    }
+
+    /// Its bits.
+    #[must_use]
+    pub fn bits(&self, signals: &Signals) -> i64 {
+        signals.get(self.register)
+    }
+}
+
+impl fmt::Debug for RankRegister {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.name, self.format)
+        write!(f, "{}: {}", self.register, self.format)
     }
 }

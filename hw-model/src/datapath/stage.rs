@@ -1,6 +1,7 @@
 //! One multiply-add stage: `t = addend ± multiplicand · v`, rounded once.
 //!
-//! The three stages of the polynomial (Horner's rule) and the divisor of the tail are this line:
+//! The stages of the polynomial (Horner's rule, as many as its degree) and the divisor of the tail are this line. Of a
+//! cubic:
 //!
 //! | stage   | power form     | centred form   | tail         |
 //! |---------|----------------|----------------|--------------|
@@ -15,6 +16,7 @@
 //! is kept whole (m + v fraction bits); product and addend are moved up to the larger of m + v and a
 //! (no bit is lost), added, and only then rounded to t.
 
+use crate::registers::MAX_DEGREE;
 use crate::rounding::{Lane, Rounding, round_shift};
 
 /// A multiply-add line with its alignment; built by [`MultiplyAdd::aligned`].
@@ -28,6 +30,57 @@ pub struct MultiplyAdd {
     rounding: Rounding,
 }
 
+/// The stages of a polynomial, the first of which multiplies the highest coefficient. None where there is no
+/// polynomial.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stages {
+    degree: usize,
+    lines: [MultiplyAdd; MAX_DEGREE],
+}
+
+impl Stages {
+    /// No stages: what has no polynomial.
+    pub const NONE: Self = Self { degree: 0, lines: [MultiplyAdd::NOTHING; MAX_DEGREE] };
+
+    /// These stages; at most [`MAX_DEGREE`] of them count.
+    #[must_use]
+    pub fn new(lines: impl IntoIterator<Item = MultiplyAdd>) -> Self {
+        let mut stages = Self::NONE;
+        for (place, line) in stages.lines.iter_mut().zip(lines) {
+            *place = line;
+            stages.degree += 1;
+        }
+        stages
+    }
+
+    /// The stages in their order.
+    #[inline(always)]
+    #[must_use]
+    pub fn lines(&self) -> &[MultiplyAdd] {
+        &self.lines[..self.degree]
+    }
+
+    /// How many there are: the polynomial's degree.
+    #[inline(always)]
+    #[must_use]
+    pub const fn degree(&self) -> usize {
+        self.degree
+    }
+
+    /// Each stage changed.
+    #[inline(always)]
+    #[must_use]
+    pub(super) fn map(self, change: impl Fn(MultiplyAdd) -> MultiplyAdd) -> Self {
+        Self { lines: self.lines.map(change), ..self }
+    }
+
+    /// Stage `index`, 0 for the first; one that is not there makes 0 of zeros.
+    #[inline(always)]
+    pub(super) const fn line(&self, index: usize) -> &MultiplyAdd {
+        &self.lines[index]
+    }
+}
+
 /// The fraction bits that meet in a multiply-add line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Fractions {
@@ -37,20 +90,14 @@ pub struct Fractions {
     pub variable: u32,
     /// Of the addend (c2, c1, c0 or A).
     pub addend: u32,
-    /// Of the result.
+    /// Of the result (t1, t2, t3 or D).
     pub result: u32,
 }
 
 impl MultiplyAdd {
     /// A line that is not there: of zeros it makes 0.
-    pub(super) const NOTHING: Self = Self {
-        subtract: false,
-        product_up: 0,
-        addend_up: 0,
-        result_up: 0,
-        drop: 0,
-        rounding: Rounding::Floor,
-    };
+    pub(super) const NOTHING: Self =
+        Self { subtract: false, product_up: 0, addend_up: 0, result_up: 0, drop: 0, rounding: Rounding::Floor };
 
     /// The line for these fraction bits; `subtract` takes the product away from the addend.
     #[must_use]
@@ -158,11 +205,7 @@ mod tests {
                     for result in 4..12 {
                         let fractions = Fractions { multiplicand, variable, addend, result };
                         let line = MultiplyAdd::aligned(fractions, true, Rounding::Floor);
-                        let t = line.apply(
-                            (5_i64 << multiplicand) / 8,
-                            (1 << variable) / 2,
-                            (3 << addend) / 4,
-                        );
+                        let t = line.apply((5_i64 << multiplicand) / 8, (1 << variable) / 2, (3 << addend) / 4);
                         assert_eq!(t << 4, 7 << result, "{fractions:?}");
                     }
                 }

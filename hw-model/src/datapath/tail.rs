@@ -27,7 +27,7 @@ use super::stage::MultiplyAdd;
 pub struct Division<L> {
     /// D, never zero where the tail answers.
     pub divisor: L,
-    /// Less than D.
+    /// What is left of the dividend, 0 or more and less than the divisor.
     pub remainder: L,
     /// Dividend bits still to come (at the top) and quotient bits found (at the bottom).
     pub digits: L,
@@ -49,11 +49,7 @@ impl<L: Lane> Division<L> {
     /// As registers hold it.
     #[inline(always)]
     pub(super) fn narrowed(self) -> Division<i64> {
-        Division {
-            divisor: self.divisor.to_bits(),
-            remainder: self.remainder.to_bits(),
-            digits: self.digits.to_bits(),
-        }
+        Division { divisor: self.divisor.to_bits(), remainder: self.remainder.to_bits(), digits: self.digits.to_bits() }
     }
 }
 
@@ -122,7 +118,8 @@ impl Divider {
         }
     }
 
-    /// One quotient bit.
+    /// The division with one more quotient bit found: a dividend bit moves into the remainder, the quotient bit takes
+    /// its place.
     #[inline(always)]
     pub fn digit<L: Lane>(&self, division: Division<L>) -> Division<L> {
         let Division { divisor, remainder, digits } = division;
@@ -173,8 +170,7 @@ mod tests {
         let k = Divider::quotient_fraction(output);
         let mut compared = 0;
         for rounding in Rounding::ALL {
-            let fractions =
-                Fractions { multiplicand: 4, variable: x_fraction, addend: 4, result: d_fraction };
+            let fractions = Fractions { multiplicand: 4, variable: x_fraction, addend: 4, result: d_fraction };
             let divider = Divider {
                 divisor: MultiplyAdd::aligned(fractions, true, rounding),
                 dividend_up: k + d_fraction - x_fraction,
@@ -199,9 +195,7 @@ mod tests {
                     let up = match rounding {
                         Rounding::Floor | Rounding::TowardZero => false,
                         Rounding::NearestUp => twice >= denominator,
-                        Rounding::NearestEven => {
-                            twice > denominator || (twice == denominator && floor % 2 == 1)
-                        }
+                        Rounding::NearestEven => twice > denominator || (twice == denominator && floor % 2 == 1),
                     };
                     let got = divider.finish(division, 64);
                     assert_eq!(got, floor + i64::from(up), "{x}/{d} {rounding}");

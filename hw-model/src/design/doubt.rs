@@ -2,7 +2,7 @@
 //!
 //! The analysis widens every range by the rounding errors that may reach it, and by what a polynomial's
 //! extremes have that no representable x takes. So a format with a bit less than it asks for may hold
-//! everything; whoever states such a format gets it if it does.
+//! everything; a configuration that states such a format gets it if it does.
 
 use crate::budget::BudgetError;
 use crate::datapath::Datapath;
@@ -10,9 +10,9 @@ use crate::format::QFormat;
 
 /// A stated format in doubt.
 pub(super) struct Doubt {
-    /// 0 for the variable, 1 for t1, 2 for t2.
+    /// 0 for the variable, j for the result of stage j.
     pub line: usize,
-    /// The format.
+    /// The format that the configuration states for it.
     pub stated: QFormat,
     /// What the analysis says.
     pub refusal: BudgetError,
@@ -27,14 +27,18 @@ pub(super) fn settle(doubts: Vec<Doubt>, datapath: &Datapath) -> Result<(), Budg
         return Ok(());
     }
     let formats = datapath.formats().polynomial.as_ref();
-    let widths = formats.map_or([0; 3], |f| [f.v, f.t1, f.t2].map(QFormat::width));
-    let wide = widths[0] + widths[1].max(widths[2]) > WIDEST;
+    let of_v = formats.map_or(0, |f| f.v.width());
+    // All but the last: it is no multiplicand.
+    let of_t = formats.map_or(&[][..], |f| &f.t()[..f.degree() - 1]);
+    let wide = of_v + of_t.iter().map(|t| t.width()).max().unwrap_or(0) > WIDEST;
     // Values that do not fit their registers have room in the wide lane.
     let reach = if wide { None } else { datapath.clone().in_wide_lane().polynomial_reach() };
     for Doubt { line, stated, refusal } in doubts {
-        let Some(reach) = &reach else { return Err(refusal) };
-        let [t1, t2, _] = reach.lines;
-        let reach = [reach.v, t1, t2][line];
+        let reach = reach.as_ref().and_then(|reach| match line.checked_sub(1) {
+            None => Some(&reach.v),
+            Some(stage) => reach.lines.get(stage),
+        });
+        let Some(reach) = reach else { return Err(refusal) };
         let holds = |bits: i64| stated.holds(bits.into());
         if !holds(reach.least.bits) || !holds(reach.greatest.bits) {
             return Err(refusal);

@@ -1,10 +1,13 @@
 //! From a configuration to hardware: real rows, widths, ROM, data path.
 //!
+//! [`Design::preset`] and [`Design::highlight`] are the front door; this is the way behind it:
+//!
 //! ```text
 //! Config → real rows (fit) → fraction bits (budget) → ROM integers (quantise) → ranges → formats → Datapath
 //! ```
 
 mod doubt;
+mod highlight;
 mod polynomial;
 mod real_row;
 mod revision;
@@ -19,13 +22,17 @@ use crate::config::{Config, ConfigError, Form};
 use crate::datapath::Datapath;
 use crate::datapath::formats::Formats;
 use crate::datapath::front_end::FrontEnd;
+use crate::datapath::stage::Stages;
 use crate::domain;
 use crate::fit::FitError;
 use crate::format::QFormat;
+use crate::presets;
 use crate::quantise::QuantiseError;
-use crate::rom::{FieldName, Rom, Row};
+use crate::registers::Register;
+use crate::rom::{Rom, Row};
 
-pub use real_row::{Outer, RealRow};
+pub use highlight::HighlightError;
+pub use real_row::{RealRow, RealSegment};
 pub use revision::Revision;
 pub use rom_row::RomRow;
 pub use shares::Share;
@@ -34,23 +41,29 @@ pub use shares::Share;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DesignError {
-    /// The configuration itself.
+    /// A preset that is none.
+    #[error("there is no preset {name:?}; there are {}", presets::ALL.map(|preset| preset.name).join(", "))]
+    NoPreset {
+        /// The name.
+        name: String,
+    },
+    /// The configuration contradicts itself.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// Its exponents.
+    /// A method has no fit for one of the exponents.
     #[error(transparent)]
     Fit(#[from] FitError),
-    /// Its widths.
+    /// No widths keep the budget, or a stated width is too small.
     #[error(transparent)]
     Budget(#[from] BudgetError),
-    /// A ROM field.
+    /// A ROM field does not hold the value of a row.
     #[error("ROM field {field} at n = {exponent}: {source}")]
     Quantise {
-        /// The field.
+        /// The field's name, as in the ROM's layout.
         field: &'static str,
-        /// The exponent.
+        /// The row's exponent.
         exponent: f64,
-        /// What is wrong.
+        /// What is wrong with the value or the format.
         source: QuantiseError,
     },
 }
@@ -109,8 +122,9 @@ impl Design {
                 guarded: !config.domain.is_empty(),
                 cut_up: places(parts.formats.cut),
                 hand_over_up: places(parts.formats.hand_over),
+                segments: config.segments,
             },
-            stages: polynomial.map(|(_, stages)| stages),
+            stages: polynomial.map_or(Stages::NONE, |(_, stages)| stages),
             divider,
             output_one: config.output.max_bits().min(config.output.one()),
             narrow,
@@ -119,7 +133,7 @@ impl Design {
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }
 
-    /// The configuration.
+    /// The configuration from which this design follows.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config
@@ -138,13 +152,13 @@ impl Design {
         &self.bounds
     }
 
-    /// The data path.
+    /// The data path: integers in, integers out, without a clock.
     #[must_use]
     pub const fn datapath(&self) -> &Datapath {
         &self.datapath
     }
 
-    /// The ROM.
+    /// The ROM that the data path reads, row by row.
     #[must_use]
     pub const fn rom(&self) -> &Rom {
         self.datapath.rom()
@@ -160,7 +174,7 @@ impl Design {
 /// What the derivation of the polynomial and of the tail add to.
 struct Parts {
     rom_rows: Vec<Row>,
-    fields: Vec<(FieldName, QFormat)>,
+    fields: Vec<(Register, QFormat)>,
     formats: Formats,
     bounds: Vec<Bound>,
     /// Every line with the bits it needs.
@@ -180,9 +194,7 @@ impl Parts {
                 polynomial: None,
                 tail: None,
                 cut: None,
-                shift: None,
                 hand_over: None,
-                shift_outer: None,
             },
             bounds: vec![Bound::default(); rows.len()],
             lane_bits: Vec::new(),
@@ -191,7 +203,7 @@ impl Parts {
     }
 
     /// Adds a field whose bits are given for each row.
-    fn add_field(&mut self, name: FieldName, format: QFormat, bits: impl Iterator<Item = i64>) {
+    fn add_field(&mut self, name: Register, format: QFormat, bits: impl Iterator<Item = i64>) {
         self.fields.push((name, format));
         for (row, bits) in self.rom_rows.iter_mut().zip(bits) {
             row.set(name, bits);

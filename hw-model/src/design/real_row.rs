@@ -4,39 +4,37 @@ use crate::config::{Config, Cut, Form, Tail};
 use crate::fit::minimax::{self, Range};
 use crate::fit::{Curve, FitError, Levels, Method, fit};
 use crate::format::QFormat;
-use crate::highlight::{Cubic, Rational, Segment};
+use crate::highlight::{Cubic, Power, Rational, Segment};
 use crate::quantise::round_scaled;
+use crate::registers::{CUBIC, MAX_DEGREE, Register};
 use crate::rounding::{Rounding, round_shift};
 
 /// What one row means in real numbers, and where its parts meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RealRow {
-    /// n.
+    /// The row's exponent n, 1 or more.
     pub exponent: f64,
     /// p = 1 − q: the epicentre is 0 ≤ s ≤ p in s = 1 − x.
     pub epicentre: f64,
-    /// The polynomial, or its first segment; none for schlick.
-    pub polynomial: Option<Cubic>,
-    /// The second segment, where there is one: it starts at `hand_over`.
-    pub outer: Option<Outer>,
+    /// The polynomials, from x = 1 downwards; none for schlick.
+    pub segments: Vec<RealSegment>,
+    /// The first polynomial in powers of x, from the constant term up; zeros for schlick.
+    pub power: [f64; MAX_DEGREE + 1],
     /// What the divider computes, where the configuration keeps one.
     pub tail: Option<Rational>,
-    /// The least x (in the input's unit) at which the polynomial answers.
+    /// The least x (in the input's unit) at which a polynomial answers.
     pub cut: i64,
-    /// The least x (in the input's unit) at which the first segment answers; the cut where it is the only one,
-    /// and 0 in a configuration of one segment.
-    pub hand_over: i64,
-    /// e = ⌊log2 n⌋ in the centred form (with a range fitted to the error, the greatest that keeps u below 1), 0
-    /// in the power form.
-    pub shift: u32,
 }
 
-/// The second segment.
+/// One segment of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outer {
-    /// The cubic, counted from the hand-over.
-    pub segment: Segment,
-    /// The places its v is moved up, so that it stays below 1.
+pub struct RealSegment {
+    /// The polynomial, which counts from `start`.
+    pub polynomial: Segment,
+    /// The x (in the input's unit) from which v counts: 1, or the least x of the segment before.
+    pub start: i64,
+    /// The places v is moved up: e = ⌊log2 n⌋ in the centred form (with a range fitted to the error, the greatest that
+    /// keeps v below 1), 0 in the power form.
     pub shift: u32,
 }
 
@@ -72,8 +70,28 @@ impl RealRow {
             }
             _ => epicentre,
         };
-        let cut = cut_bits(config, cut_s);
-        Ok(Self { exponent, epicentre, polynomial, outer: None, tail, cut, hand_over: 0, shift })
+        let own = match &polynomial {
+            // The best of another degree on the same range.
+            Some(_) if config.method == Method::Minimax && config.degree != CUBIC => {
+                let range = Range::Level(levels.q());
+                let fitted = minimax::segments(exponent, config.degree, 1, range)?;
+                fitted.segments.first().map(|&segment| (segment, fitted.power))
+            }
+            other => other.as_ref().map(|cubic| {
+                let Power { a, b, c, d } = cubic.power;
+                (cubic.segment(), [d, c, b, a, 0.0])
+            }),
+        };
+        let start = config.input.one();
+        let segment = |(polynomial, _)| RealSegment { polynomial, start, shift };
+        Ok(Self {
+            exponent,
+            epicentre,
+            segments: own.map(segment).into_iter().collect(),
+            power: own.map_or([0.0; MAX_DEGREE + 1], |(_, power)| power),
+            tail,
+            cut: cut_bits(config, cut_s),
+        })
     }
 
     /// The row of minimax segments whose ends are part of the fit.
@@ -82,36 +100,42 @@ impl RealRow {
             Cut::Balanced => Range::Balanced,
             Cut::Epicentre | Cut::Minimum => Range::Level(levels.q()),
         };
-        let fitted = minimax::segments(exponent, config.segments as usize, range)?;
+        let count = config.segments;
+        let fitted = minimax::segments(exponent, config.degree, count, range)?;
         let end = |index: usize| fitted.ends.get(index).or(fitted.ends.last()).copied();
         let last = end(usize::MAX).unwrap_or(1.0);
-        let alone = config.segments > 1 && fitted.further.is_empty();
-        // An x^n that is a cubic itself (n = 1, 2, 3) goes on in the second segment, so that u stays below 1.
-        let first = if alone { 0.5 * last } else { end(0).unwrap_or(1.0) };
-        let hand_over = cut_bits(config, first);
-        let start = (config.input.one() - hand_over) as f64 * config.input.ulp();
-        let k = fitted.first.centred;
-        let same = Segment { start: 0.0, c: [1.0, k.k1, k.k2, k.k3] };
-        let further = fitted.further.first().or(alone.then_some(&same));
-        let outer = further.map(|segment| Outer {
-            segment: segment.counted_from(start),
-            shift: fitted_shift(last - start),
-        });
+        // An x^n that is such a polynomial itself (n = 1, 2, 3) goes on in the other segments, so that v stays below 1.
+        let alone = fitted.segments.len() == 1;
+        let end = |index: usize| match alone {
+            true => last * (index + 1) as f64 / count as f64,
+            false => end(index).unwrap_or(1.0),
+        };
         let centred = config.form == Form::Centred;
+        let mut segments = Vec::with_capacity(count);
+        let (mut start, mut start_s) = (config.input.one(), 0.0);
+        for index in 0..count {
+            let nothing = Segment { start: start_s, c: [0.0; MAX_DEGREE + 1] };
+            let own = if alone { fitted.segments.first() } else { fitted.segments.get(index) };
+            let polynomial = own.copied().unwrap_or(nothing);
+            // The first counts from 1 as it is.
+            let polynomial = if index == 0 { polynomial } else { polynomial.counted_from(start_s) };
+            let shift = if centred { fitted_shift(end(index) - start_s) } else { 0 };
+            segments.push(RealSegment { polynomial, start, shift });
+            start = cut_bits(config, end(index));
+            start_s = distance(config, start);
+        }
         Ok(Self {
             exponent,
             epicentre: crate::fit::crossing(exponent, levels.q())?.s,
-            polynomial: Some(fitted.first),
-            outer,
+            segments,
+            power: fitted.power,
             tail: None,
             cut: cut_bits(config, last),
-            hand_over: if config.segments > 1 { hand_over } else { 0 },
-            shift: if centred { fitted_shift(first) } else { 0 },
         })
     }
 
-    /// The row with its ends rounded to the stated formats of cut and hand-over. The second segment then counts from
-    /// the new hand-over, and a shift that was fitted to a length is fitted to the new one, if there is one.
+    /// The row with its ends rounded to the stated formats of cut and hand-over. A further segment then counts from
+    /// its new hand-over, and a shift that was fitted to a length is fitted to the new one, if there is one.
     ///
     /// A cut moves down: a divider is never asked for more than Q, and a domain that lies above the cut of one
     /// configuration lies above that of another without the divider.
@@ -120,23 +144,28 @@ impl RealRow {
         let in_place = |end: i64, format: Option<QFormat>, mode: Rounding| {
             format.map_or(end, |format| rounded_end(end, config.input, format, mode))
         };
-        let cut = in_place(self.cut, config.widths.cut, Rounding::Floor);
-        let hand_over = in_place(self.hand_over, config.widths.hand_over, Rounding::NearestEven);
-        if (cut, hand_over) == (self.cut, self.hand_over) {
-            return *self;
+        let hand_over = config.widths[Register::HandOver(1)];
+        let cut = in_place(self.cut, config.widths[Register::Cut], Rounding::Floor);
+        let mut moved = Self { cut, ..self.clone() };
+        for segment in moved.segments.iter_mut().skip(1) {
+            segment.start = in_place(segment.start, hand_over, Rounding::NearestEven);
         }
-        let length = |end: i64| (config.input.one() - end) as f64 * config.input.ulp();
+        if &moved == self {
+            return moved;
+        }
         let is_fitted = config.form == Form::Centred && ends_are_fitted(config);
-        let refitted = |length: f64, shift: u32| match is_fitted && length > 0.0 {
-            true => fitted_shift(length),
-            false => shift,
-        };
-        let outer = self.outer.map(|outer| Outer {
-            segment: outer.segment.counted_from(length(hand_over)),
-            shift: refitted(length(cut) - length(hand_over), outer.shift),
-        });
-        let first = length(if self.outer.is_some() { hand_over } else { cut });
-        Self { cut, hand_over, outer, shift: refitted(first, self.shift), ..*self }
+        let mut end = distance(config, cut);
+        for (index, segment) in moved.segments.iter_mut().enumerate().rev() {
+            let start = distance(config, segment.start);
+            if index > 0 {
+                segment.polynomial = segment.polynomial.counted_from(start);
+            }
+            if is_fitted && end - start > 0.0 {
+                segment.shift = fitted_shift(end - start);
+            }
+            end = start;
+        }
+        moved
     }
 
     /// The least x in the input's unit that lies on the epicentre, x ≥ q.
@@ -145,21 +174,35 @@ impl RealRow {
         cut_bits(config, self.epicentre)
     }
 
+    /// The least x (in the input's unit) at which segment `index` answers: where the next one begins, or the cut.
+    #[must_use]
+    pub fn least_of_segment(&self, index: usize) -> i64 {
+        self.segments.get(index + 1).map_or(self.cut, |next| next.start.max(self.cut))
+    }
+
     /// The real function at x = 1 − s, with real coefficients, through the same parts as the
-    /// hardware: the polynomial above the cut (clamped to [0, 1]), the ratio or zero below.
+    /// hardware: the polynomials above the cut (clamped to [0, 1]), the ratio or zero below.
     #[must_use]
     #[inline]
     pub fn value_at_s(&self, s: f64, above_cut: bool) -> f64 {
-        match (&self.polynomial, &self.tail) {
-            (Some(cubic), _) if above_cut => match &self.outer {
-                Some(Outer { segment, .. }) if s > segment.start => segment.value_at_s(s),
-                _ => cubic.centred.value_at_s(s),
-            }
-            .clamp(0.0, 1.0),
+        match (self.segments.split_first(), &self.tail) {
+            (Some((first, further)), _) if above_cut => further
+                .iter()
+                .rev()
+                .find(|segment| s > segment.polynomial.start)
+                .unwrap_or(first)
+                .polynomial
+                .value_at_s(s)
+                .clamp(0.0, 1.0),
             (_, Some(rational)) => rational.value_at_s(s),
             _ => 0.0,
         }
     }
+}
+
+/// s = 1 − x of bits of x.
+fn distance(config: &Config, x: i64) -> f64 {
+    (config.input.one() - x) as f64 * config.input.ulp()
 }
 
 /// Where the multipliers' operands are limited, u = s·2^e stays below 2 with room for its rounding, so that
@@ -245,20 +288,18 @@ mod tests {
         let narrow = rows(fields, r#""cut": "UQ1.6", "hand_over": "UQ1.4""#);
         let mut moved = 0;
         for (wide, narrow) in rows(fields, "").into_iter().zip(narrow) {
-            assert_eq!((narrow.cut % 64, narrow.hand_over % 256), (0, 0), "{narrow:?}");
+            let hand_over = |row: &RealRow| row.segments[1].start;
+            assert_eq!((narrow.cut % 64, hand_over(&narrow) % 256), (0, 0), "{narrow:?}");
             assert!((0..64).contains(&(wide.cut - narrow.cut)), "{narrow:?}");
-            assert!((narrow.hand_over - wide.hand_over).abs() <= 128, "{narrow:?}");
-            moved += u32::from(narrow.hand_over != wide.hand_over);
+            assert!((hand_over(&narrow) - hand_over(&wide)).abs() <= 128, "{narrow:?}");
+            moved += u32::from(hand_over(&narrow) != hand_over(&wide));
             for s in [0.0, 0.01, 0.2, 0.7, 1.0] {
-                let [was, is] =
-                    [&wide, &narrow].map(|row| row.outer.unwrap().segment.value_at_s(s));
+                let [was, is] = [&wide, &narrow].map(|row| row.segments[1].polynomial.value_at_s(s));
                 assert!((was - is).abs() <= 1e-9 * was.abs().max(1.0), "{was} {is}");
             }
             let length = |end: i64| (4096 - end) as f64 / 4096.0;
-            let [first, all] = [narrow.hand_over, narrow.cut].map(length);
-            for (length, shift) in
-                [(first, narrow.shift), (all - first, narrow.outer.unwrap().shift)]
-            {
+            let [first, all] = [hand_over(&narrow), narrow.cut].map(length);
+            for (length, shift) in [(first, narrow.segments[0].shift), (all - first, narrow.segments[1].shift)] {
                 let u = length * f64::from(shift).exp2();
                 let fits = u < 1.0 && 2.0 * u > 0.99;
                 assert!(fits || length <= 0.0, "{length} {shift}");
@@ -274,7 +315,8 @@ mod tests {
             (r#""method": "minimax", "cut": "balanced""#, r#""cut": "UQ1.0""#),
         ] {
             for (wide, narrow) in rows(fields, "").into_iter().zip(rows(fields, widths)) {
-                let shifts = |row: &RealRow| (row.shift, row.outer.map_or(0, |outer| outer.shift));
+                let shifts =
+                    |row: &RealRow| (row.segments[0].shift, row.segments.get(1).map_or(0, |outer| outer.shift));
                 let ([was, is], n) = ([&wide, &narrow].map(shifts), wide.exponent);
                 assert!(is.0 <= was.0.max(2) && is.1 <= was.1.max(2), "n = {n}: {was:?} {is:?}");
             }
@@ -285,9 +327,7 @@ mod tests {
     fn a_cut_moves_down() {
         for fields in [r#""tail": "rational""#, r#""cut": "minimum""#] {
             let fields = format!(r#""method": "hermite", {fields}"#);
-            for (wide, narrow) in
-                rows(&fields, "").into_iter().zip(rows(&fields, r#""cut": "UQ1.3""#))
-            {
+            for (wide, narrow) in rows(&fields, "").into_iter().zip(rows(&fields, r#""cut": "UQ1.3""#)) {
                 assert!((0..512).contains(&(wide.cut - narrow.cut)), "{narrow:?}");
             }
         }

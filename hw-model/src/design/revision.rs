@@ -2,10 +2,11 @@
 //!
 //! Rows are what takes time to fit, and a search tries thousands of widths and integers.
 
-use crate::config::StatedWidths;
 use crate::exponents::Exponents;
+use crate::registers::Register;
 use crate::rounding::Rounding;
 use crate::steps::CoefficientSteps;
+use crate::widths::{STATED, StatedWidths};
 
 use super::{Design, DesignError};
 
@@ -50,13 +51,12 @@ impl Design {
     /// # Errors
     /// As [`Design::new`], or when there is no such row.
     pub fn row_alone(&self, address: u32, mut revision: Revision) -> Result<Self, DesignError> {
-        let row = self.fitted.get(address as usize).copied();
-        let exponent = row.map_or(f64::NAN, |row| row.exponent);
+        let row = self.fitted.get(address as usize).cloned();
+        let exponent = row.as_ref().map_or(f64::NAN, |row| row.exponent);
         revision.coefficient_steps.retain(|steps| steps.n == exponent);
         let mut config = self.config.clone();
-        config.exponents = Exponents::new(vec![exponent]).map_err(|source| {
-            crate::config::ConfigError::Field { field: "exponents", problem: source.to_string() }
-        })?;
+        config.exponents = Exponents::new(vec![exponent])
+            .map_err(|source| crate::config::ConfigError::Field { field: "exponents", problem: source.to_string() })?;
         config.domain.retain(|presented| presented.n == exponent);
         revision.put_into(&mut config);
         config.check()?;
@@ -68,19 +68,18 @@ impl Design {
     pub fn widths(&self) -> StatedWidths {
         let formats = self.datapath.formats();
         let mut widths = StatedWidths::default();
-        if let Some(polynomial) = &formats.polynomial {
-            let [c0, c1, c2, c3] = polynomial.coefficients.map(Some);
-            let u = self.is_centred().then_some(polynomial.v);
-            let (t1, t2) = (Some(polynomial.t1), Some(polynomial.t2));
-            // With a domain the register holds its least x, and what is stated is not its format.
-            let whole = self.config.domain.is_empty();
-            let cut = if whole { formats.cut } else { self.config.widths.cut };
-            let hand_over = formats.hand_over;
-            widths = StatedWidths { u, c3, c2, c1, c0, t1, t2, cut, hand_over, ..widths };
+        for (register, _) in STATED {
+            widths.set(register, formats.get(register));
         }
-        if let Some(tail) = &formats.tail {
-            let [tail_a, tail_b, divisor] = [tail.a, tail.b, tail.divisor].map(Some);
-            widths = StatedWidths { tail_a, tail_b, divisor, ..widths };
+        if let Some(polynomial) = &formats.polynomial {
+            widths.set(Register::T(polynomial.degree()), None);
+        }
+        if !self.is_centred() {
+            widths.set(Register::V, None);
+        }
+        // With a domain the register holds its least x, and what is stated is not its format.
+        if !self.config.domain.is_empty() {
+            widths.set(Register::Cut, self.config.widths[Register::Cut]);
         }
         widths
     }

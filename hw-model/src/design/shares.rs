@@ -1,11 +1,12 @@
 //! What each register adds to the error bound, and what one bit less of it would cost.
 
-use super::polynomial::{Pieces, stated, surroundings};
+use super::polynomial::{pieces, stated, surroundings};
 use super::tail::row_tail;
 use super::{Design, RealRow};
 use crate::budget::RowTail;
-use crate::budget::error::{FractionBits, Register, Sensitivity};
+use crate::budget::error::{FractionBits, Sensitivity, chosen};
 use crate::budget::tail::{TailWidths, shares};
+use crate::registers::Register;
 
 /// The part of one register in the error bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Share {
     pub register: &'static str,
     /// The most its rounding shows in the result over all rows, in output ulp.
     pub ulp: f64,
-    /// The row where.
+    /// The exponent of the row where it shows most.
     pub exponent: f64,
     /// The worst row's whole bound with a fraction bit less, in output ulp; A, B and D give up theirs
     /// together. None where the number of bits is not the budget's to choose.
@@ -48,32 +49,39 @@ impl Design {
         let Some(formats) = &self.datapath.formats().polynomial else { return Vec::new() };
         let config = &self.config;
         let surroundings = surroundings(config);
-        let rows: Vec<Sensitivity> = Pieces::of(config, &self.rows)
-            .all()
-            .map(|row| Sensitivity::of(row, &surroundings))
-            .collect();
-        let [c0, c1, c2, c3] = formats.coefficients;
-        let bits: FractionBits = [formats.v, c3, c2, c1, c0, formats.t1, formats.t2]
-            .map(|format| format.fraction_bits());
-        let names = Register::ALL.map(Register::name).into_iter().chain(["t3"]);
-        let mut all: Vec<Share> = names.map(Share::new).collect();
+        let rows: Vec<Sensitivity> =
+            pieces(config, &self.rows).iter().map(|piece| Sensitivity::of(piece.row, &surroundings)).collect();
+        let registers: Vec<Register> = chosen(formats.degree()).collect();
+        let mut bits = FractionBits::default();
+        for &register in &registers {
+            let format = self.datapath.formats().get(register);
+            bits[register] = format.map_or(0, |format| format.fraction_bits());
+        }
+        let last = Register::T(formats.degree());
+        let names = registers.iter().map(|&register| match register {
+            Register::V => "u",
+            other => other.name(),
+        });
+        let mut all: Vec<Share> = names.chain([last.name()]).map(Share::new).collect();
         for row in &rows {
             let shares = row.shares(&bits, &surroundings);
             for (share, ulp) in all.iter_mut().zip(shares) {
                 share.raise(ulp, row.row().exponent);
             }
         }
-        for (index, register) in Register::ALL.into_iter().enumerate() {
-            let chosen = stated(config, register).is_none() && bits[index] > 0;
-            all[index].one_bit_fewer = chosen.then(|| {
+        for (share, &register) in all.iter_mut().zip(&registers) {
+            let chosen = stated(config, register).is_none() && bits[register] > 0;
+            share.one_bit_fewer = chosen.then(|| {
                 let mut fewer = bits;
-                fewer[index] -= 1;
+                fewer[register] -= 1;
                 let bounds = rows.iter().map(|row| row.bound(&fewer, &surroundings).total());
                 bounds.fold(0.0, f64::max)
             });
         }
         // x is no register of its own.
-        all.retain(|share| surroundings.centred || share.register != Register::V.name());
+        if !surroundings.centred {
+            all.remove(0);
+        }
         all
     }
 
@@ -92,7 +100,7 @@ impl Design {
             worst = worst.max(of(1).iter().sum());
         }
         let stated = &self.config.widths;
-        let chosen = [stated.tail_a, stated.tail_b, stated.divisor].map(|format| format.is_none());
+        let chosen = [Register::TailA, Register::TailB, Register::Divisor].map(|r| stated[r].is_none());
         for (share, chosen) in all.iter_mut().zip(chosen) {
             share.one_bit_fewer = chosen.then_some(worst);
         }
@@ -100,10 +108,7 @@ impl Design {
     }
 }
 
-fn of_rows<'a, T: 'a>(
-    rows: &'a [RealRow],
-    of: impl Fn(&RealRow) -> Option<T> + 'a,
-) -> impl Iterator<Item = T> + 'a {
+fn of_rows<'a, T: 'a>(rows: &'a [RealRow], of: impl Fn(&RealRow) -> Option<T> + 'a) -> impl Iterator<Item = T> + 'a {
     rows.iter().filter_map(of)
 }
 
@@ -120,18 +125,7 @@ mod tests {
                 let mut config = design.config().clone();
                 config.exponents = exponent.to_string().parse().unwrap();
                 // The same formats for one row as for all of them.
-                if let Some(formats) = &design.datapath().formats().polynomial {
-                    let [c0, c1, c2, c3] = formats.coefficients.map(Some);
-                    let (t1, t2) = (Some(formats.t1), Some(formats.t2));
-                    let u = design.is_centred().then_some(formats.v);
-                    config.widths =
-                        crate::config::StatedWidths { u, c3, c2, c1, c0, t1, t2, ..config.widths };
-                }
-                if let Some(formats) = &design.datapath().formats().tail {
-                    config.widths.tail_a = Some(formats.a);
-                    config.widths.tail_b = Some(formats.b);
-                    config.widths.divisor = Some(formats.divisor);
-                }
+                config.widths = design.widths().with(Register::Cut, None).with(Register::HandOver(1), None);
                 Design::new(config).unwrap()
             };
             for exponent in [1.0, 2.0, 37.0, 256.0] {
@@ -141,7 +135,7 @@ mod tests {
                 let bound = design.bounds()[0];
                 let epicentre = bound.coefficient + bound.datapath;
                 // Of two segments the worse one counts for each register, and one of them for the bound.
-                let two = design.datapath().has_two_segments();
+                let two = design.datapath().segment_count() > 1;
                 let over = sum(&polynomial) - epicentre;
                 assert!(over > -1e-9 && over < if two { 0.5 } else { 1e-9 }, "{}", preset.name);
                 assert!((sum(&tail) - bound.tail).abs() < 1e-9, "{}", preset.name);

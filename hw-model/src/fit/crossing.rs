@@ -5,7 +5,7 @@ use super::double_double::DoubleDouble;
 /// The point of [0, 1] at which x^n has a given value. x + s = 1, each rounded from the real number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// x = level^(1/n).
+    /// x = level^(1/n), between 0 and 1.
     pub x: f64,
     /// s = 1 − x, correct to the last digits however close x is to 1.
     pub s: f64,
@@ -14,9 +14,9 @@ pub struct Crossing {
 /// The same in 32 digits, with what the fits derive from it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WideCrossing {
-    /// ln(level), negative.
+    /// ln(level), the negative logarithm of a level below 1.
     pub log: DoubleDouble,
-    /// x = level^(1/n).
+    /// x = level^(1/n), between 0 and 1.
     pub x: DoubleDouble,
     /// s = 1 − x = −expm1(ln(level)/n), of size 1/n.
     pub s: DoubleDouble,
@@ -32,13 +32,7 @@ impl WideCrossing {
         let log = DoubleDouble::ln(level);
         let log_x = log / n;
         let log_ratio = log * less_one(exponent) / n;
-        Self {
-            log,
-            x: log_x.exp(),
-            s: -log_x.exp_m1(),
-            ratio: log_ratio.exp(),
-            shortfall: -log_ratio.exp_m1(),
-        }
+        Self { log, x: log_x.exp(), s: -log_x.exp_m1(), ratio: log_ratio.exp(), shortfall: -log_ratio.exp_m1() }
     }
 
     pub fn rounded(&self) -> Crossing {

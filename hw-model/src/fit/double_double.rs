@@ -40,7 +40,7 @@ fn two_product(a: f64, b: f64) -> DoubleDouble {
 impl DoubleDouble {
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
 
-    /// The nearest f64.
+    /// The nearest f64: all but the low 53 bits.
     pub const fn to_f64(self) -> f64 {
         self.hi
     }
@@ -94,11 +94,7 @@ impl DoubleDouble {
     ///
     /// A negative argument goes through the reciprocal, since 1 + expm1 would cancel.
     pub fn exp(self) -> Self {
-        if self.hi < 0.0 {
-            Self::ONE / (Self::ONE + (-self).exp_m1())
-        } else {
-            Self::ONE + self.exp_m1()
-        }
+        if self.hi < 0.0 { Self::ONE / (Self::ONE + (-self).exp_m1()) } else { Self::ONE + self.exp_m1() }
     }
 }
 
@@ -135,7 +131,7 @@ impl Sub for DoubleDouble {
 
 impl Mul for DoubleDouble {
     type Output = Self;
-    /// `DWTimesDW2`.
+    /// The product, by algorithm `DWTimesDW2` of the paper named above.
     fn mul(self, other: Self) -> Self {
         let product = two_product(self.hi, other.hi);
         let cross = self.hi.mul_add(other.lo, self.lo * other.hi);

@@ -23,7 +23,7 @@ use crate::highlight::Cubic;
 pub(super) struct Differences {
     /// −D1 − 1 = q·P/p, of size n − 1.
     pub first_less_one: DoubleDouble,
-    /// Δ.
+    /// Δ = D2·p, the change of the divided difference.
     pub bend: DoubleDouble,
 }
 
@@ -31,10 +31,7 @@ impl Differences {
     pub fn new(exponent: f64, at_q: &WideCrossing) -> Self {
         let n = DoubleDouble::from(exponent);
         let q_over_p = at_q.x / at_q.s;
-        Self {
-            first_less_one: at_q.shortfall * q_over_p,
-            bend: at_q.shortfall * (q_over_p + n) - less_one(exponent),
-        }
+        Self { first_less_one: at_q.shortfall * q_over_p, bend: at_q.shortfall * (q_over_p + n) - less_one(exponent) }
     }
 }
 
@@ -50,8 +47,5 @@ pub(super) fn hermite(exponent: f64, at_q: &WideCrossing) -> Cubic {
     let d2 = bend / p;
     let d3 = at_q.ratio * less_one(exponent) / q - d2;
     let b = d2 + d3 * (DoubleDouble::ONE + q + q);
-    assemble::through_origin(
-        [DoubleDouble::ONE + (first_less_one + bend) - p * p * d3, d2 - (p + p) * d3, -d3],
-        b,
-    )
+    assemble::through_origin([DoubleDouble::ONE + (first_less_one + bend) - p * p * d3, d2 - (p + p) * d3, -d3], b)
 }

@@ -17,9 +17,7 @@ pub struct Levels {
 
 /// Levels that are not in order.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error(
-    "the levels q = {q}, g = {g} are refused; they must satisfy 0 < g < q < 1, for example q = 0.5, g = 0.0556"
-)]
+#[error("the levels q = {q}, g = {g} are refused; they must satisfy 0 < g < q < 1, for example q = 0.5, g = 0.0556")]
 pub struct LevelsError {
     /// The level Q as given.
     pub q: f64,
@@ -33,11 +31,7 @@ impl Levels {
     /// # Errors
     /// Unless 0 < g < q < 1, or when g is subnormal.
     pub fn new(q: f64, g: f64) -> Result<Self, LevelsError> {
-        if f64::MIN_POSITIVE <= g && g < q && q < 1.0 {
-            Ok(Self { q, g })
-        } else {
-            Err(LevelsError { q, g })
-        }
+        if f64::MIN_POSITIVE <= g && g < q && q < 1.0 { Ok(Self { q, g }) } else { Err(LevelsError { q, g }) }
     }
 
     /// Q, the intensity at the edge of the epicentre.

@@ -31,7 +31,8 @@ pub enum Method {
 /// A name that is not a method's.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{0:?} is not a method; choose one of hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick"
+    "{0:?} is not a method; choose one of hermite, three_point, tangent, minimax, quadratic, rational, composite, \
+     schlick"
 )]
 pub struct UnknownMethod(pub String);
 
@@ -74,10 +75,7 @@ impl FromStr for Method {
     type Err = UnknownMethod;
 
     fn from_str(text: &str) -> Result<Self, UnknownMethod> {
-        Self::ALL
-            .into_iter()
-            .find(|method| method.name() == text)
-            .ok_or_else(|| UnknownMethod(text.to_owned()))
+        Self::ALL.into_iter().find(|method| method.name() == text).ok_or_else(|| UnknownMethod(text.to_owned()))
     }
 }
 

@@ -39,7 +39,7 @@ use crossing::WideCrossing;
 pub struct Fit {
     /// Where the epicentre begins: x = q = Q^(1/n), s = p = 1 − q.
     pub epicentre: Crossing,
-    /// The function.
+    /// The function of x that approximates x^n.
     pub curve: Curve,
 }
 
@@ -108,11 +108,7 @@ pub fn crossing(exponent: f64, level: f64) -> Result<Crossing, FitError> {
 }
 
 fn checked(exponent: f64) -> Result<f64, FitError> {
-    if (1.0..=MAX_EXPONENT).contains(&exponent) {
-        Ok(exponent)
-    } else {
-        Err(FitError::Exponent(exponent))
-    }
+    if (1.0..=MAX_EXPONENT).contains(&exponent) { Ok(exponent) } else { Err(FitError::Exponent(exponent)) }
 }
 
 impl Fit {
@@ -122,9 +118,7 @@ impl Fit {
         match &self.curve {
             Curve::Cubic(cubic) => cubic.centred.value_at_s(s),
             Curve::Rational(rational) => rational.value_at_s(s),
-            Curve::Composite { epicentre, .. } if s <= self.epicentre.s => {
-                epicentre.centred.value_at_s(s)
-            }
+            Curve::Composite { epicentre, .. } if s <= self.epicentre.s => epicentre.centred.value_at_s(s),
             Curve::Composite { tail, .. } => tail.value_at_s(s),
         }
     }
@@ -135,9 +129,7 @@ impl Fit {
         match &self.curve {
             Curve::Cubic(cubic) => cubic.centred.slope_at_s(s),
             Curve::Rational(rational) => rational.slope_at_s(s),
-            Curve::Composite { epicentre, .. } if s <= self.epicentre.s => {
-                epicentre.centred.slope_at_s(s)
-            }
+            Curve::Composite { epicentre, .. } if s <= self.epicentre.s => epicentre.centred.slope_at_s(s),
             Curve::Composite { tail, .. } => tail.slope_at_s(s),
         }
     }

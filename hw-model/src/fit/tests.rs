@@ -24,10 +24,7 @@ fn edge_slope(exponent: f64, levels: Levels, fit: &Fit) -> f64 {
 }
 
 fn close(got: f64, wanted: f64, tolerance: f64) -> Result<(), TestCaseError> {
-    prop_assert!(
-        (got - wanted).abs() <= tolerance,
-        "{got:e} is not {wanted:e} within {tolerance:e}"
-    );
+    prop_assert!((got - wanted).abs() <= tolerance, "{got:e} is not {wanted:e} within {tolerance:e}");
     Ok(())
 }
 

@@ -9,6 +9,8 @@
 //! both in evaluation and in the conversion from one form to the other. So a fit computes each
 //! form's coefficients by themselves ([`Cubic`]), and real values come from the centred form.
 
+use super::segment::Segment;
+
 /// 1 − s·(k1 − s·(k2 − s·k3)), s = 1 − x. The value at x = 1 is 1 by construction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Centred {
@@ -80,6 +82,15 @@ impl Centred {
         let root = discriminant.sqrt();
         let s = if k2 >= 0.0 { k1 / (k2 + root) } else { (k2 - root) / (3.0 * k3) };
         (s > 0.0 && s.is_finite()).then_some(s)
+    }
+}
+
+impl Cubic {
+    /// The centred form as a segment that counts from s = 0.
+    #[must_use]
+    pub const fn segment(&self) -> Segment {
+        let Centred { k1, k2, k3 } = self.centred;
+        Segment { start: 0.0, c: [1.0, k1, k2, k3, 0.0] }
     }
 }
 

@@ -22,7 +22,7 @@ const LEAST_EXPONENT: i64 = -1074;
 /// Significant bits of an f64.
 const SIGNIFICANT: i64 = 53;
 
-/// x^n, exactly.
+/// x^n as an exact ratio of integers: a numerator over a power of two.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExactPower {
     numerator: UBig,
@@ -33,9 +33,7 @@ pub struct ExactPower {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum ExactError {
     /// x is not in [0, 1], or has too many fraction bits.
-    #[error(
-        "x = {k}/2^{fraction} is refused; the oracle takes 0 <= k <= 2^fraction, fraction <= {MAX_FRACTION}"
-    )]
+    #[error("x = {k}/2^{fraction} is refused; the oracle takes 0 <= k <= 2^fraction, fraction <= {MAX_FRACTION}")]
     Input {
         /// The numerator of x.
         k: u64,
@@ -44,12 +42,13 @@ pub enum ExactError {
     },
     /// The power has too many bits.
     #[error(
-        "{fraction} fraction bits to the power {exponent} exceed {MAX_BITS} bits; use a smaller exponent or fewer fraction bits"
+        "{fraction} fraction bits to the power {exponent} exceed {MAX_BITS} bits; use a smaller exponent or fewer \
+         fraction bits"
     )]
     TooLarge {
         /// The fraction bits of x.
         fraction: u32,
-        /// The exponent.
+        /// The integer exponent n that was asked for.
         exponent: u32,
     },
 }

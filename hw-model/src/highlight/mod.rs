@@ -7,6 +7,7 @@
 pub mod cubic;
 pub mod exact;
 pub mod phong;
+pub mod powers;
 pub mod rational;
 pub mod schlick;
 pub mod segment;
@@ -14,6 +15,7 @@ pub mod segment;
 pub use cubic::{Centred, Cubic, Power};
 pub use exact::{ExactError, ExactPower};
 pub use phong::{phong, phong_at_s};
+pub use powers::phong_of_all;
 pub use rational::Rational;
 pub use schlick::{schlick, schlick_at_s};
 pub use segment::Segment;

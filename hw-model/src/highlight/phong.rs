@@ -1,4 +1,4 @@
-//! The reference, x^n.
+//! The reference x^n in f64, correctly rounded.
 
 /// x^n, correctly rounded (error at most half an ulp of the result).
 ///

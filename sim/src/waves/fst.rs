@@ -3,18 +3,18 @@
 use std::io::{self, Seek, Write};
 
 use fst_writer::{
-    FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType,
-    FstVarDirection, FstVarType, FstWriteError,
+    FstBodyWriter, FstFileType, FstHeaderWriter, FstInfo, FstScopeType, FstSignalId, FstSignalType, FstVarDirection,
+    FstVarType, FstWriteError,
 };
 
-use super::Sink;
 use super::hierarchy::{Hierarchy, Scope};
+use super::sink::Sink;
 
-/// Changes are held in memory, by signal, until there are so many bytes of them; then they become a
+/// Changes are held in memory, by signal, until this number of bytes is reached; then they become a
 /// block of the file. Larger blocks are hardly smaller files.
 const BLOCK_BYTES: usize = 4 << 20;
 
-/// Seconds to the power of ten: ns.
+/// The exponent of ten of the time unit in seconds: ns.
 const TIMESCALE: i8 = -9;
 
 /// An FST file under way.
@@ -24,7 +24,7 @@ pub(super) struct FstSink<W: Write + Seek> {
 }
 
 impl<W: Write + Seek> FstSink<W> {
-    /// Writes the header.
+    /// Writes the header, with the names of all signals.
     pub(super) fn new(output: W, hierarchy: &Hierarchy) -> io::Result<Self> {
         let info = FstInfo {
             start_time: 0,

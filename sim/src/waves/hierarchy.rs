@@ -1,9 +1,9 @@
 //! Which signals there are, and their names.
 //!
 //! A register has two names for the same bits. One is in the scope of its rank, as in traces: `stage1.t1_q`. The
-//! other is where the RTL has it, `polynomial.stage1.t_q`: below its top scope the file is laid out as a simulator's
-//! dump is below `blysk_tb.dut`, and what replays a dump into the RTL finds every register. (Of rank 0's status the RTL
-//! has no register but one bit, and the wire around it has no x where the rank is unknown.)
+//! other is where the RTL has it, `polynomial.stage[1].multiply_add.t_q`: below its top scope the file is laid out as a
+//! simulator's dump is below `blysk_tb.dut`, and what replays a dump into the RTL finds every register. (Of rank 0's
+//! status the RTL has no register but one bit, and the wire around it has no x where the rank is unknown.)
 
 use hw_model::datapath::Datapath;
 use vectors::rtl::probes::{FETCH_STATUS, Port, Probe, VALID_FLAGS, valid_wave};

@@ -9,18 +9,20 @@
 
 mod fst;
 mod hierarchy;
+mod sink;
 mod vcd;
 
 use std::io::{self, Seek, Write};
 use std::path::Path;
 
-use hw_model::datapath::{Datapath, Register};
+use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::format::QFormat;
 use vectors::rtl::probes::{ports, probes};
 use vectors::rtl::{self, Names};
 
 use crate::run::Cycle;
 use hierarchy::Hierarchy;
+use sink::Sink;
 
 const HALF_PERIOD: u64 = 5;
 
@@ -34,7 +36,7 @@ pub enum WaveFormat {
 }
 
 impl WaveFormat {
-    /// Every format.
+    /// Every format, in the order above.
     pub const ALL: [Self; 2] = [Self::Vcd, Self::Fst];
 
     /// What the names of its files end in, without the dot.
@@ -53,18 +55,6 @@ impl WaveFormat {
 pub fn save_file(name: &str, datapath: &Datapath, dump: &Path) -> String {
     let dump = dump.file_name().and_then(|name| name.to_str());
     rtl::save_file(datapath, Names::Ranks, &hierarchy::top(name), dump)
-}
-
-/// A file of waves under way, whose header is written.
-trait Sink {
-    /// The changes from here on are at `time`, in ns, later than those before.
-    fn time(&mut self, time: u64) -> io::Result<()>;
-
-    /// A signal changes to these bits, from the highest down, each `b'0'`, `b'1'` or `b'x'`.
-    fn change(&mut self, signal: usize, bits: &[u8]) -> io::Result<()>;
-
-    /// Writes what is left, and flushes.
-    fn finish(self: Box<Self>) -> io::Result<()>;
 }
 
 /// The bits of a signal; `None` is unknown.
@@ -86,7 +76,7 @@ pub struct WaveWriter<'a> {
     sink: Box<dyn Sink + 'a>,
     /// Every signal but the clock.
     wires: Vec<Wire>,
-    registers: Vec<Vec<Register>>,
+    registers: Vec<Vec<RankRegister>>,
     input: QFormat,
     output: QFormat,
     /// Room for the bits of one signal.
@@ -107,9 +97,8 @@ impl<'a> WaveWriter<'a> {
         let probes = probes(datapath);
         let hierarchy = Hierarchy::new(name, datapath, &ports(datapath), &probes);
         let of_rank = |rank| probes.iter().filter(move |probe| probe.rank == rank);
-        let registers = (0..datapath.rank_count())
-            .map(|rank| of_rank(rank).map(|probe| probe.register).collect())
-            .collect();
+        let registers =
+            (0..datapath.rank_count()).map(|rank| of_rank(rank).map(|probe| probe.register).collect()).collect();
         let wire = |&width| Wire { width, last: None };
         let wires = hierarchy.widths.iter().skip(FIRST).map(wire).collect();
         let sink: Box<dyn Sink + 'a> = match format {
@@ -179,7 +168,7 @@ impl<'a> WaveWriter<'a> {
         for (rank, registers) in cycle.ranks.iter().zip(&self.registers) {
             words.push(flag(rank.valid));
             words.extend(registers.iter().map(|register| {
-                let word = || register.format.to_word((register.bits)(&rank.signals)).into();
+                let word = || register.format.to_word(register.bits(&rank.signals)).into();
                 rank.loaded.then(word)
             }));
         }

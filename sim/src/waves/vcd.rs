@@ -4,8 +4,8 @@ use std::io::{self, Write};
 
 use vcd::{IdCode, TimescaleUnit, VarType, Writer};
 
-use super::Sink;
 use super::hierarchy::{Hierarchy, Scope};
+use super::sink::Sink;
 
 /// A VCD file under way.
 ///
@@ -18,7 +18,7 @@ pub(super) struct VcdSink<W: Write> {
 }
 
 impl<W: Write> VcdSink<W> {
-    /// Writes the header.
+    /// Writes the header, with the names of all signals.
     pub(super) fn new(output: W, hierarchy: &Hierarchy) -> io::Result<Self> {
         let mut vcd = Writer::new(output);
         vcd.timescale(1, TimescaleUnit::NS)?;
@@ -34,12 +34,7 @@ impl<W: Write> VcdSink<W> {
 }
 
 /// A scope, its signals and the scopes inside. A further name of a signal has the same code.
-fn declare<W: Write>(
-    vcd: &mut Writer<W>,
-    scope: &Scope,
-    widths: &[u32],
-    ids: &mut [Option<IdCode>],
-) -> io::Result<()> {
+fn declare<W: Write>(vcd: &mut Writer<W>, scope: &Scope, widths: &[u32], ids: &mut [Option<IdCode>]) -> io::Result<()> {
     vcd.add_module(&scope.name)?;
     for (name, number) in &scope.signals {
         let width = widths[*number];

@@ -8,6 +8,7 @@ use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
 use hw_model::presets;
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -43,21 +44,15 @@ impl Random {
         self.integer(1, times) == 1
     }
 
-    /// One of these.
+    /// One of these choices, each as likely as another.
     pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.integer(0, choices.len() as i64 - 1) as usize]
     }
 }
 
 /// The methods a configuration can have.
-pub const METHODS: [Method; 6] = [
-    Method::Hermite,
-    Method::ThreePoint,
-    Method::Tangent,
-    Method::Minimax,
-    Method::Quadratic,
-    Method::Schlick,
-];
+pub const METHODS: [Method; 6] =
+    [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Minimax, Method::Quadratic, Method::Schlick];
 
 /// A configuration with every field at its default, to be changed field by field.
 ///
@@ -85,11 +80,16 @@ pub fn random(random: &mut Random) -> Config {
         config.tail = Tail::Rational;
     }
     if config.method == Method::Minimax && !random.once_in(3) {
-        config.segments = random.one_of(&[1, 2, 2]);
+        config.segments = random.one_of(&[1, 2, 2, 3, 5, 8]);
         config.cut = random.one_of(&[Cut::Epicentre, Cut::Balanced]);
         config.tail = Tail::Zero;
-        config.form = if config.segments == 2 { Form::Centred } else { config.form };
+        config.form = if config.segments > 1 { Form::Centred } else { config.form };
     }
+    config.degree = match config.method {
+        Method::Minimax => random.one_of(&[3, 3, 1, 2, 4]),
+        Method::Quadratic => random.one_of(&[2, 3]),
+        _ => 3,
+    };
     if config.tail == Tail::Rational && !random.once_in(40) {
         config.cut = Cut::Epicentre;
     }
@@ -185,12 +185,8 @@ fn output(random: &mut Random) -> QFormat {
         1 => random.integer(20, 32),
         _ => random.integer(4, 20),
     } as u32;
-    if random.once_in(3) || width == 1 {
-        QFormat::unsigned(0, width)
-    } else {
-        QFormat::unsigned(1, width - 1)
-    }
-    .expect("1 to 32 bits")
+    if random.once_in(3) || width == 1 { QFormat::unsigned(0, width) } else { QFormat::unsigned(1, width - 1) }
+        .expect("1 to 32 bits")
 }
 
 fn budget(random: &mut Random, rounding: Rounding) -> f64 {
@@ -209,9 +205,9 @@ fn state_widths(random: &mut Random, config: &mut Config) {
         return;
     };
     let formats = design.datapath().formats();
-    let mut state = |place: &mut Option<QFormat>, format: QFormat| {
+    let mut state = |format: QFormat| {
         if random.once_in(2) {
-            return;
+            return None;
         }
         let less = i32::from(random.once_in(12));
         let integer = format.integer_bits() + random.integer(0, 3) as i32 - less;
@@ -221,33 +217,26 @@ fn state_widths(random: &mut Random, config: &mut Config) {
         } else {
             QFormat::unsigned(integer, fraction)
         };
-        *place = stated.ok();
+        stated.ok()
     };
-    let widths = &mut config.widths;
-    if let Some(polynomial) = &formats.polynomial {
-        let [c0, c1, c2, c3] = polynomial.coefficients;
-        if config.form == Form::Centred {
-            state(&mut widths.u, polynomial.v);
+    // The coefficients from c0 up, as the order of the draws has always been.
+    let coefficients = (0..=config.degree).map(|power| Register::C(0, power));
+    let stages = (1..config.degree).map(Register::T);
+    let tail = [Register::TailA, Register::TailB, Register::Divisor];
+    let v = Some(Register::V).filter(|_| config.form == Form::Centred);
+    for register in v.into_iter().chain(coefficients).chain(stages).chain(tail) {
+        if let Some(format) = formats.get(register) {
+            config.widths.set(register, state(format));
         }
-        state(&mut widths.c0, c0);
-        state(&mut widths.c1, c1);
-        state(&mut widths.c2, c2);
-        state(&mut widths.c3, c3);
-        state(&mut widths.t1, polynomial.t1);
-        state(&mut widths.t2, polynomial.t2);
     }
-    if let Some(tail) = &formats.tail {
-        state(&mut widths.tail_a, tail.a);
-        state(&mut widths.tail_b, tail.b);
-        state(&mut widths.divisor, tail.divisor);
-    }
-    for (place, end) in [(&mut widths.cut, formats.cut), (&mut widths.hand_over, formats.hand_over)]
-    {
-        *place = end.filter(|_| random.once_in(2)).and_then(|end| coarser(random, end));
+    for end in [Register::Cut, Register::HandOver(1)] {
+        let kept = formats.get(end).filter(|_| random.once_in(2));
+        config.widths.set(end, kept.and_then(|format| coarser(random, format)));
     }
 }
 
-/// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is needed.
+/// A format for an end of a segment with some fraction bits less, or none, or rarely no integer bit where one is
+/// needed.
 fn coarser(random: &mut Random, format: QFormat) -> Option<QFormat> {
     let most = format.fraction_bits();
     let fewer = random.integer(0, most.into()).min(random.integer(0, most.into())) as u32;

@@ -21,16 +21,17 @@ use hw_model::datapath::formats::Formats;
 use hw_model::design::Design;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
-use hw_model::rom::{FieldName, Row};
+use hw_model::registers::Register;
+use hw_model::rom::Row;
 use hw_model::rounding::Rounding;
 use num_bigint::BigInt;
 use num_integer::Integer;
 
 /// Bits of the status port, as the table of flags gives them.
 pub const NO_WORD: u8 = 1;
-/// x above 1.
+/// The flag of an x above 1.
 pub const ABOVE_ONE: u8 = 2;
-/// x below 0.
+/// The flag of an x below 0.
 pub const FACING_AWAY: u8 = 4;
 /// The polynomial left [0, 1].
 pub const CLAMPED: u8 = 8;
@@ -56,7 +57,7 @@ impl Exact {
         Self { numerator, denominator }
     }
 
-    /// bits/2^fraction.
+    /// The exact number bits/2^fraction.
     #[must_use]
     pub fn of_bits(bits: impl Into<BigInt>, fraction: u32) -> Self {
         Self::ratio(bits.into(), power_of_two(fraction))
@@ -91,9 +92,7 @@ impl Exact {
         let above_wanted = match mode {
             Rounding::Floor => false,
             Rounding::NearestUp => twice >= self.denominator,
-            Rounding::NearestEven => {
-                twice > self.denominator || (twice == self.denominator && below.is_odd())
-            }
+            Rounding::NearestEven => twice > self.denominator || (twice == self.denominator && below.is_odd()),
             Rounding::TowardZero => self.numerator < BigInt::ZERO && left_over != BigInt::ZERO,
         };
         if above_wanted { below + 1 } else { below }
@@ -160,14 +159,10 @@ impl Mul for Exact {
 /// What the registers of the polynomial hold.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lines {
-    /// The variable.
+    /// The variable of the polynomial, x or u.
     pub v: BigInt,
-    /// After stage 1.
-    pub t1: BigInt,
-    /// After stage 2.
-    pub t2: BigInt,
-    /// After stage 3, before the clamp.
-    pub t3: BigInt,
+    /// After each stage, the last before the clamp.
+    pub t: Vec<BigInt>,
 }
 
 /// Everything the naive model says about one input.
@@ -179,9 +174,9 @@ pub struct Answer {
     pub divisor: Option<BigInt>,
     /// `zero`, `polynomial` or `tail`.
     pub region: &'static str,
-    /// The result.
+    /// The intensity, bits in the output format.
     pub intensity: BigInt,
-    /// The flags.
+    /// The flags, one bit each.
     pub status: u8,
 }
 
@@ -193,20 +188,11 @@ pub struct Naive<'a> {
     rows: &'a [Row],
 }
 
-/// c0 to c3 of the first segment, and of the second.
-const FIRST: [FieldName; 4] = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
-const SECOND: [FieldName; 4] =
-    [FieldName::C0Outer, FieldName::C1Outer, FieldName::C2Outer, FieldName::C3Outer];
-
 impl<'a> Naive<'a> {
     /// Takes the data of a design.
     #[must_use]
     pub fn new(design: &'a Design) -> Self {
-        Self {
-            config: design.config(),
-            formats: design.datapath().formats(),
-            rows: design.rom().rows(),
-        }
+        Self { config: design.config(), formats: design.datapath().formats(), rows: design.rom().rows() }
     }
 
     /// What the hardware does with (address, x).
@@ -232,18 +218,17 @@ impl<'a> Naive<'a> {
             Form::Centred => power_of_two(self.formats.input.fraction_bits()),
         };
         let polynomial_x = if region == "polynomial" { &clamped } else { &harmless };
-        let second = region == "polynomial"
-            && self.config.segments == 2
-            && self.end(&row, FieldName::HandOver, self.formats.hand_over) > *polynomial_x;
-        let lines = self.lines(&row, polynomial_x, second);
+        let segment = if region == "polynomial" { self.segment(&row, polynomial_x) } else { 0 };
+        let lines = self.lines(&row, polynomial_x, segment);
         let tail_x = if region == "tail" { clamped } else { BigInt::ZERO };
         let divisor = self.divisor(&row, &tail_x);
 
         let one = greatest_in_unit_interval(self.formats.output);
         let intensity = match (region, &lines, &divisor) {
             ("polynomial", Some(lines), _) => {
-                let intensity = lines.t3.clone().clamp(BigInt::ZERO, one);
-                status |= if intensity == lines.t3 { 0 } else { CLAMPED };
+                let polynomial = lines.t.last().cloned().unwrap_or_default();
+                let intensity = polynomial.clone().clamp(BigInt::ZERO, one);
+                status |= if intensity == polynomial { 0 } else { CLAMPED };
                 intensity
             }
             ("tail", _, Some(divisor)) => self.quotient(tail_x, divisor).min(one),
@@ -263,7 +248,7 @@ impl<'a> Naive<'a> {
     }
 
     /// A cut or hand-over in the input's unit.
-    fn end(&self, row: &Row, name: FieldName, format: Option<QFormat>) -> BigInt {
+    fn end(&self, row: &Row, name: Register, format: Option<QFormat>) -> BigInt {
         let input = self.formats.input.fraction_bits();
         let fraction = format.map_or(input, |format| format.fraction_bits());
         BigInt::from(row.get(name)) * power_of_two(input - fraction)
@@ -274,7 +259,7 @@ impl<'a> Naive<'a> {
         let polynomial = self.config.method != Method::Schlick;
         if x < 0 {
             "zero"
-        } else if polynomial && BigInt::from(x) >= self.end(row, FieldName::Cut, self.formats.cut) {
+        } else if polynomial && BigInt::from(x) >= self.end(row, Register::Cut, self.formats.cut) {
             "polynomial"
         } else if self.config.tail == Tail::Rational {
             "tail"
@@ -283,58 +268,68 @@ impl<'a> Naive<'a> {
         }
     }
 
-    /// Power form: t1 = c2 + c3·x, t2 = c1 + t1·x, t3 = c0 + t2·x. Centred form: the same with minus,
-    /// and u = (1 − x)·2^e for x; in the second of two segments (hand_over − x)·2^e, with coefficients and e of
+    /// The furthest segment whose hand-over lies above x; the first where none does.
+    fn segment(&self, row: &Row, x: &BigInt) -> usize {
+        let begins = |segment| self.end(row, Register::HandOver(segment), self.formats.hand_over);
+        (1..self.config.segments).filter(|&segment| begins(segment) > *x).max().unwrap_or(0)
+    }
+
+    /// Power form, of a cubic: t1 = c2 + c3·x, t2 = c1 + t1·x, t3 = c0 + t2·x. Centred form: the same with minus,
+    /// and u = (1 − x)·2^e for x; in a further segment (hand-over − x)·2^e, with coefficients and e of
     /// its own. Every register is rounded once.
-    fn lines(&self, row: &Row, x: &BigInt, second: bool) -> Option<Lines> {
+    fn lines(&self, row: &Row, x: &BigInt, segment: usize) -> Option<Lines> {
         let formats = self.formats.polynomial.as_ref()?;
         let mode = self.config.rounding;
         let input = self.formats.input.fraction_bits();
         let x = Exact::of_bits(x.clone(), input);
-        let (start, shift, names) = if second {
-            let start =
-                Exact::of_bits(self.end(row, FieldName::HandOver, self.formats.hand_over), input);
-            (start, FieldName::ShiftOuter, SECOND)
-        } else {
-            (Exact::of_bits(1, 0), FieldName::Shift, FIRST)
+        let start = match segment {
+            0 => Exact::of_bits(1, 0),
+            _ => {
+                let end = self.end(row, Register::HandOver(segment), self.formats.hand_over);
+                Exact::of_bits(end, input)
+            }
         };
         let v = match self.config.form {
             Form::Power => x,
             Form::Centred => {
-                let shift = u32::try_from(row.get(shift)).expect("a shift is a count");
+                let shift = row.get(Register::Shift(segment));
+                let shift = u32::try_from(shift).expect("a shift is a count");
                 (start - x) * Exact::of_bits(power_of_two(shift), 0)
             }
         };
-        let step = |multiplicand: &Exact, v: &Exact, addend: Exact, fraction| {
-            let product = multiplicand.clone() * v.clone();
-            let sum = match self.config.form {
-                Form::Power => addend + product,
-                Form::Centred => addend - product,
-            };
-            register(&sum, fraction, mode)
-        };
-        let [c0, c1, c2, c3] = formats.coefficients.map(QFormat::fraction_bits);
-        let coefficient = |name, fraction| Exact::of_bits(row.get(name), fraction);
-
         let (v_bits, v) = register(&v, formats.v.fraction_bits(), mode);
-        let c3 = coefficient(names[3], c3);
-        let (t1_bits, t1) = step(&c3, &v, coefficient(names[2], c2), formats.t1.fraction_bits());
-        let (t2_bits, t2) = step(&t1, &v, coefficient(names[1], c1), formats.t2.fraction_bits());
-        let (t3_bits, _) =
-            step(&t2, &v, coefficient(names[0], c0), self.formats.output.fraction_bits());
-        Some(Lines { v: v_bits, t1: t1_bits, t2: t2_bits, t3: t3_bits })
+        let degree = self.config.degree;
+        let coefficient = |power: usize| {
+            let fraction = formats.coefficients()[power].fraction_bits();
+            Exact::of_bits(row.get(Register::C(segment, power)), fraction)
+        };
+        let mut value = coefficient(degree);
+        let mut t = Vec::new();
+        for power in (0..degree).rev() {
+            let product = value * v.clone();
+            let sum = match self.config.form {
+                Form::Power => coefficient(power) + product,
+                Form::Centred => coefficient(power) - product,
+            };
+            let fraction = match power {
+                0 => self.formats.output.fraction_bits(),
+                _ => formats.t()[degree - 1 - power].fraction_bits(),
+            };
+            let (bits, rounded) = register(&sum, fraction, mode);
+            t.push(bits);
+            value = rounded;
+        }
+        Some(Lines { v: v_bits, t })
     }
 
     /// D = A − B·x, rounded once.
     fn divisor(&self, row: &Row, x: &BigInt) -> Option<BigInt> {
         let formats = self.formats.tail.as_ref()?;
-        let coefficient =
-            |name, format: QFormat| Exact::of_bits(row.get(name), format.fraction_bits());
-        let a = coefficient(FieldName::TailA, formats.a);
-        let b = coefficient(FieldName::TailB, formats.b);
+        let coefficient = |name, format: QFormat| Exact::of_bits(row.get(name), format.fraction_bits());
+        let a = coefficient(Register::TailA, formats.a);
+        let b = coefficient(Register::TailB, formats.b);
         let x = Exact::of_bits(x.clone(), self.formats.input.fraction_bits());
-        let (bits, _) =
-            register(&(a - b * x), formats.divisor.fraction_bits(), self.config.rounding);
+        let (bits, _) = register(&(a - b * x), formats.divisor.fraction_bits(), self.config.rounding);
         Some(bits)
     }
 
@@ -343,8 +338,7 @@ impl<'a> Naive<'a> {
         let formats = self.formats.tail.as_ref().expect("a tail answers with a divider");
         let x = Exact::of_bits(x, self.formats.input.fraction_bits());
         let divisor = Exact::of_bits(divisor.clone(), formats.divisor.fraction_bits());
-        x.divided_by(&divisor)
-            .into_register(self.formats.output.fraction_bits(), self.config.rounding)
+        x.divided_by(&divisor).into_register(self.formats.output.fraction_bits(), self.config.rounding)
     }
 }
 

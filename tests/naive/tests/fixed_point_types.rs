@@ -11,7 +11,8 @@ use hw_model::datapath::front_end::Region;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::presets;
-use hw_model::rom::{FieldName, Row};
+use hw_model::registers::Register;
+use hw_model::rom::Row;
 
 /// x for each row: an even spread of an odd number of steps, so that low bits are met in all patterns.
 const STEPS: i64 = 997;
@@ -28,28 +29,23 @@ fn nearest_up(value: I64F64, fraction: u32) -> I64F64 {
     raised - raised.rem_euclid(place)
 }
 
-/// c0 to c3 of the first segment, and of the second.
-const FIRST: [FieldName; 4] = [FieldName::C0, FieldName::C1, FieldName::C2, FieldName::C3];
-const SECOND: [FieldName; 4] =
-    [FieldName::C0Outer, FieldName::C1Outer, FieldName::C2Outer, FieldName::C3Outer];
-
 /// t1, t2, t3 of one x, through the stages of the form.
 fn stages(
     form: Form,
     formats: &PolynomialFormats,
-    (row, names): (&Row, [FieldName; 4]),
+    (row, segment): (&Row, usize),
     v: I64F64,
     output: QFormat,
 ) -> [I64F64; 3] {
     let [c0, c1, c2, c3] =
-        std::array::from_fn(|power| exact(row.get(names[power]), formats.coefficients[power]));
+        std::array::from_fn(|power| exact(row.get(Register::C(segment, power)), formats.coefficients()[power]));
     let line = |multiplicand: I64F64, addend: I64F64, fraction: u32| {
         let product = multiplicand * v;
         let sum = if form == Form::Centred { addend - product } else { addend + product };
         nearest_up(sum, fraction)
     };
-    let t1 = line(c3, c2, formats.t1.fraction_bits());
-    let t2 = line(t1, c1, formats.t2.fraction_bits());
+    let t1 = line(c3, c2, formats.t()[0].fraction_bits());
+    let t2 = line(t1, c1, formats.t()[1].fraction_bits());
     [t1, t2, line(t2, c0, output.fraction_bits())]
 }
 
@@ -62,29 +58,26 @@ fn the_polynomial_of_every_preset_agrees_with_compile_time_types() {
         let Some(formats) = &datapath.formats().polynomial else { continue };
         let one = config.input.one();
         for (address, row) in datapath.rom().rows().iter().enumerate() {
-            let cut = row.get(FieldName::Cut);
+            let cut = row.get(Register::Cut);
             for step in 0..=STEPS {
                 let x = cut + (one - cut) * step / STEPS;
-                let second = x < row.get(FieldName::HandOver);
-                let (start, shift, names) = if second {
-                    (row.get(FieldName::HandOver), FieldName::ShiftOuter, SECOND)
-                } else {
-                    (one, FieldName::Shift, FIRST)
-                };
+                let segment = usize::from(x < row.get(Register::HandOver(1)));
+                let start = if segment == 1 { row.get(Register::HandOver(1)) } else { one };
+                let shift = Register::Shift(segment);
                 let s = exact(start - x, config.input);
                 let v = match config.form {
                     Form::Power => exact(x, config.input),
                     Form::Centred => nearest_up(s << row.get(shift), formats.v.fraction_bits()),
                 };
-                let [t1, t2, t3] = stages(config.form, formats, (row, names), v, config.output);
+                let [t1, t2, t3] = stages(config.form, formats, (row, segment), v, config.output);
                 let got = datapath.evaluate(address as u32, x);
                 let intensity = t3.clamp(I64F64::ZERO, I64F64::ONE);
                 assert_eq!(got.region, Region::Polynomial);
                 let shown = [
                     exact(got.v, formats.v),
-                    exact(got.t1, formats.t1),
-                    exact(got.t2, formats.t2),
-                    exact(got.t3, formats.t3),
+                    exact(got.t[0], formats.t()[0]),
+                    exact(got.t[1], formats.t()[1]),
+                    exact(got.t[2], formats.t()[2]),
                     exact(got.intensity, config.output),
                 ];
                 let place = format!("{} address {address} x = {x}", preset.name);

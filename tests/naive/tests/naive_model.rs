@@ -51,11 +51,10 @@ impl Tally {
     }
 
     fn assert_none(&self) {
-        let by_kind =
-            self.complaints.iter().fold(BTreeMap::<_, u64>::new(), |mut kinds, (_, complaint)| {
-                *kinds.entry(complaint.kind).or_default() += 1;
-                kinds
-            });
+        let by_kind = self.complaints.iter().fold(BTreeMap::<_, u64>::new(), |mut kinds, (_, complaint)| {
+            *kinds.entry(complaint.kind).or_default() += 1;
+            kinds
+        });
         let mut shown: BTreeMap<Kind, u32> = BTreeMap::new();
         for (config, complaint) in &self.complaints {
             let shown = shown.entry(complaint.kind).or_default();
@@ -138,12 +137,8 @@ fn random_configuration(index: u64) -> Tally {
 
 #[test]
 fn a_million_random_inputs_agree() {
-    let count = std::env::var("BLYSK_CONFIGURATIONS")
-        .ok()
-        .and_then(|text| text.parse().ok())
-        .unwrap_or(CONFIGURATIONS);
-    let tally =
-        (0..count).into_par_iter().map(random_configuration).reduce(Tally::default, Tally::join);
+    let count = std::env::var("BLYSK_CONFIGURATIONS").ok().and_then(|text| text.parse().ok()).unwrap_or(CONFIGURATIONS);
+    let tally = (0..count).into_par_iter().map(random_configuration).reduce(Tally::default, Tally::join);
     println!(
         "seed {SEED:#x}: {} inputs of {} designs compared; {} of {count} configurations refused",
         tally.compared,
@@ -192,10 +187,7 @@ fn a_quotient_that_passes_one_saturates() {
             coarse_divider(exponent, q, rounding)
         })
         .reduce(Tally::default, Tally::join);
-    println!(
-        "{} inputs of {} designs compared, {} of which pass 1",
-        tally.compared, tally.designs, tally.saturated
-    );
+    println!("{} inputs of {} designs compared, {} of which pass 1", tally.compared, tally.designs, tally.saturated);
     tally.assert_none();
     assert!(tally.designs > 500 && tally.saturated > 20);
 }
@@ -208,8 +200,7 @@ fn the_bound_holds_for_a_coarse_variable() {
         792.1275377745093,5030.632625785858"
         .parse()
         .expect("nine exponents");
-    (config.input, config.output) =
-        ("UQ0.5".parse().expect("a format"), "UQ0.21".parse().expect("a format"));
+    (config.input, config.output) = ("UQ0.5".parse().expect("a format"), "UQ0.21".parse().expect("a format"));
     config.q = 0.469_917_089_615_132_6;
     config.rounding = Rounding::NearestEven;
     config.error_budget_ulp = 1e6;
@@ -229,10 +220,8 @@ fn the_bound_holds_for_a_coarse_variable() {
 /// Every x of Q2.6 (so below 0 and above 1 too) at each of sixteen exponents.
 fn every_input(config: &Config) -> Tally {
     guarded(config, |tally| {
-        let design = Design::new(config.clone()).map_err(|refusal| Complaint {
-            kind: Kind::Rom,
-            text: format!("refused: {refusal}"),
-        })?;
+        let design = Design::new(config.clone())
+            .map_err(|refusal| Complaint { kind: Kind::Rom, text: format!("refused: {refusal}") })?;
         tally.designs += 1;
         comparison::rom(&design)?;
         let format = config.input;
@@ -251,18 +240,15 @@ fn every_input_of_small_configurations_agrees() {
     for method in METHODS {
         for form in [Form::Power, Form::Centred] {
             for rounding in Rounding::ALL {
-                for (tail, cut) in [
-                    (Tail::Zero, Cut::Epicentre),
-                    (Tail::Zero, Cut::Minimum),
-                    (Tail::Rational, Cut::Epicentre),
-                ] {
+                for (tail, cut) in
+                    [(Tail::Zero, Cut::Epicentre), (Tail::Zero, Cut::Minimum), (Tail::Rational, Cut::Epicentre)]
+                {
                     if method == Method::Schlick && tail == Tail::Zero {
                         continue;
                     }
                     let mut config = configurations::plain();
                     config.method = method;
-                    config.exponents =
-                        "1..=8,10,16,20.5,32,64,100,128,200".parse().expect("sixteen exponents");
+                    config.exponents = "1..=8,10,16,20.5,32,64,100,128,200".parse().expect("sixteen exponents");
                     config.input = "Q2.6".parse().expect("a format");
                     config.output = "UQ1.7".parse().expect("a format");
                     config.form = form;

@@ -89,7 +89,7 @@ pub(super) fn processor() -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// Of the results of so many requests, the share that is above 0.
+/// The share of results above 0 among this number of requests.
 #[must_use]
 pub fn share_above_zero(design: &Design, pattern: Pattern, requests: u64) -> f64 {
     match pattern {
@@ -166,12 +166,7 @@ fn stream_sweep(stream: &mut Stream<'_>, cycles: u64, shown: u64) -> u64 {
 }
 
 #[inline(always)]
-fn stream_with(
-    stream: &mut Stream<'_>,
-    mut stimulus: impl Stimulus,
-    cycles: u64,
-    mut left: u64,
-) -> u64 {
+fn stream_with(stream: &mut Stream<'_>, mut stimulus: impl Stimulus, cycles: u64, mut left: u64) -> u64 {
     let mut checksum = Checksum::NONE;
     for _ in 0..cycles.div_ceil(CYCLES as u64) {
         stream.run(|addresses, xs, valid| {
@@ -210,7 +205,5 @@ pub fn sweep(design: &Design, threads: &rayon::ThreadPool, from_cut: bool) -> Ti
         }
         total
     };
-    timed(count, || {
-        threads.install(|| firsts.par_iter().enumerate().map(row).reduce(|| 0, u64::wrapping_add))
-    })
+    timed(count, || threads.install(|| firsts.par_iter().enumerate().map(row).reduce(|| 0, u64::wrapping_add)))
 }

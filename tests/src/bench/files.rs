@@ -1,14 +1,18 @@
-//! Vector files and waves.
+//! Vector files, waves and answers to files of questions.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufRead, BufReader, BufWriter, Write};
 use std::path::Path;
 use std::time::Instant;
 
 use hw_model::design::Design;
+use hw_model::format::Overflow;
+use hw_model::quantise::x_bits;
 use sim::pipeline::{Inputs, Pipeline};
 use sim::run::{Cycle, settle};
 use sim::waves::{WaveFormat, WaveWriter};
+use vectors::evaluate::{Answer, Csv, Question, stream};
+use vectors::text_file::{self, QUESTIONS};
 use vectors::{Bundle, Strategy};
 
 use super::Timed;
@@ -80,4 +84,57 @@ pub fn waves(design: &Design, cycles: u64, path: &Path) -> Result<Timed, Failure
     }
     settle(&mut pipeline, cycles, |settled| writer.finish(settled)).map_err(failure)?;
     Ok(Timed { count: cycles, seconds: processor() - begin, checksum: 0 })
+}
+
+/// Questions n,x at random, n of 1 to 256 and x of six decimals, in a file.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn questions(count: u64, path: &Path) -> Result<(), Failure> {
+    let mut out = BufWriter::new(File::create(path).map_err(failure)?);
+    let mut stimulus = Random::new();
+    writeln!(out, "n,x").map_err(failure)?;
+    for _ in 0..count {
+        let (address, x) = stimulus.next();
+        let x = (x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) % 1_000_000;
+        writeln!(out, "{},0.{x:06}", address + 1).map_err(failure)?;
+    }
+    out.flush().map_err(failure)
+}
+
+/// The answers to a file of questions, as `blysk evaluate` gives them, in one thread; they go nowhere. Counts answers.
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn answered(design: &Design, path: &Path) -> Result<Timed, Failure> {
+    let begin = processor();
+    let questions = text_file::open(path, QUESTIONS).map_err(failure)?;
+    let mut csv = Csv::new(design.datapath());
+    let count = stream(design.datapath(), &mut csv, (path, questions), &mut std::io::sink());
+    Ok(Timed { count: count.map_err(failure)?, seconds: processor() - begin, checksum: 0 })
+}
+
+/// The same as one writes it first: a line, `split`, `parse`, an answer and a `writeln!` at a time.
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn naively_answered(design: &Design, path: &Path) -> Result<Timed, Failure> {
+    let begin = processor();
+    let (datapath, mut out, mut count) = (design.datapath(), BufWriter::new(std::io::sink()), 0);
+    for line in BufReader::new(File::open(path).map_err(failure)?).lines().skip(1) {
+        let line = line.map_err(failure)?;
+        let (n, x) = line.split_once(',').ok_or_else(|| Failure(line.clone()))?;
+        let n: f64 = n.parse().map_err(failure)?;
+        let x: f64 = x.parse().map_err(failure)?;
+        let x = x_bits(x, design.config().input, Overflow::Refuse).map_err(failure)?;
+        let answer = Answer::of(datapath, Question::of(datapath.rom(), n, x));
+        let reference = answer.reference(datapath).unwrap_or_default();
+        let (x, value) = (answer.x(datapath), answer.value(datapath));
+        let error = answer.error_ulp(datapath, reference);
+        let (region, bits) = (answer.region.name(), answer.intensity);
+        let status = answer.status.bits();
+        writeln!(out, "{n},{x},{value},{reference},{error},{region},{bits},{status}").map_err(failure)?;
+        count += 1;
+    }
+    Ok(Timed { count, seconds: processor() - begin, checksum: 0 })
 }

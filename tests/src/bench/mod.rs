@@ -23,7 +23,7 @@ pub enum Pattern {
 }
 
 impl Pattern {
-    /// Every pattern, in the order of the tables.
+    /// Both patterns, in the order of the tables.
     pub const ALL: [Self; 2] = [Self::Sweep, Self::Random];
 
     /// For tables and the harness.
@@ -36,14 +36,14 @@ impl Pattern {
     }
 }
 
-/// One timed run.
+/// The time and the results of one run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timed {
     /// Cycles, samples or bytes.
     pub count: u64,
     /// How long they took.
     pub seconds: f64,
-    /// Of all results.
+    /// The checksum of all results, in order.
     pub checksum: u64,
 }
 
@@ -60,7 +60,7 @@ impl Timed {
 pub struct Rates(Vec<f64>);
 
 impl Rates {
-    /// One more.
+    /// Adds the rate of one more run.
     pub fn push(&mut self, run: &Timed) {
         self.0.push(run.rate());
         self.0.sort_by(f64::total_cmp);
@@ -77,13 +77,12 @@ impl Rates {
     pub fn in_millions(&self, unit: &str) -> String {
         let ends = self.0.first().zip(self.0.last());
         let (least, greatest) = ends.map_or((f64::NAN, f64::NAN), |(&a, &b)| (a, b));
-        let [median, least, greatest] =
-            [self.median(), least, greatest].map(|rate| significant(rate / 1e6));
+        let [median, least, greatest] = [self.median(), least, greatest].map(|rate| significant(rate / 1e6));
         format!("{median} M {unit}/s ({least} to {greatest})")
     }
 }
 
-/// Three significant digits.
+/// A number with three significant digits.
 #[must_use]
 pub fn significant(value: f64) -> String {
     let digits = match value {

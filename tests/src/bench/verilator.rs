@@ -12,7 +12,7 @@ use crate::rtl::simulators::verilator;
 use crate::rtl::workspace::emit;
 use crate::rtl::{Failure, failed};
 
-/// A built simulation.
+/// The program that Verilator built from a configuration's RTL.
 #[derive(Debug, Clone)]
 pub struct Verilated {
     /// Where its ROM image is.
@@ -38,8 +38,7 @@ impl Verilated {
         }
         command.args(["--cc", "--exe", "--build", "-O3", "--x-assign", "fast", "--x-initial"]);
         command.args(["fast", "--noassert", "-Wno-fatal", "-Wno-lint", "-j", "2"]);
-        command
-            .args(["-CFLAGS", &format!("-O3 -march=native -DSEED={SEED}ull -DADDRESS={ADDRESS}")]);
+        command.args(["-CFLAGS", &format!("-O3 -march=native -DSEED={SEED}ull -DADDRESS={ADDRESS}")]);
         command.args(["-MAKEFLAGS", "OPT_FAST=-O3 OPT_SLOW=-O1 CFG_CXXFLAGS_PCH_I=-include"]);
         command.args(["--top-module", TOP, "--Mdir", "harness", "-o", "harness"]);
         command.args(waves.then_some("--trace"));
@@ -50,21 +49,13 @@ impl Verilated {
         Ok(Self { directory, program })
     }
 
-    /// Runs so many cycles; `waves` is the file for them.
+    /// Runs this number of cycles; `waves` is the file that gets their waves.
     ///
     /// # Errors
     /// When it fails, or says something else than it should.
-    pub fn run(
-        &self,
-        pattern: Pattern,
-        cycles: u64,
-        waves: Option<&Path>,
-    ) -> Result<Timed, Failure> {
+    pub fn run(&self, pattern: Pattern, cycles: u64, waves: Option<&Path>) -> Result<Timed, Failure> {
         let mut command = Command::new(&self.program);
-        command
-            .args([pattern.name(), &cycles.to_string()])
-            .args(waves)
-            .current_dir(&self.directory);
+        command.args([pattern.name(), &cycles.to_string()]).args(waves).current_dir(&self.directory);
         let output = succeeded(&mut command)?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
         let mut words = text.split_whitespace();
@@ -98,9 +89,7 @@ pub fn version() -> Result<String, Failure> {
 
 fn succeeded(command: &mut Command) -> Result<Output, Failure> {
     let program = command.get_program().to_owned();
-    let output = command
-        .output()
-        .map_err(|error| Failure(format!("cannot run {}: {error}", program.display())))?;
+    let output = command.output().map_err(|error| Failure(format!("cannot run {}: {error}", program.display())))?;
     if output.status.success() {
         return Ok(output);
     }

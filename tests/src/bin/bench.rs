@@ -7,13 +7,13 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicU64;
 use std::time::Instant;
 
+use analysis::error_report::{Options, error_report};
 use blysk_tests::bench::verilator::{self, Verilated};
 use blysk_tests::bench::{Pattern, Rates, Timed, engines, files, significant};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::presets;
-use sim::analysis::error_report::{Options, error_report};
 
 /// The presets that are timed.
 const PRESETS: [&str; 3] = ["compact", "precise", "paper"];
@@ -25,14 +25,14 @@ const CYCLES: u64 = 4_000_000;
 const CHECKED: u64 = 500_000;
 const WAVE_CYCLES: u64 = 200_000;
 const VECTORS: u64 = 100_000;
+const QUESTIONS: u64 = 1_000_000;
 
 /// Lines of a table in Markdown.
 struct Table(String);
 
 impl Table {
     fn line(&mut self, what: &str, rates: &Rates, unit: &str, ratio: Option<(f64, &str)>) {
-        let ratio =
-            ratio.map_or_else(String::new, |(ratio, of)| format!("{} x {of}", significant(ratio)));
+        let ratio = ratio.map_or_else(String::new, |(ratio, of)| format!("{} x {of}", significant(ratio)));
         self.row(what, &rates.in_millions(unit), &ratio);
     }
 
@@ -43,8 +43,7 @@ impl Table {
 
     fn heading(&mut self, preset: &str) {
         println!("{preset}");
-        let _ =
-            writeln!(self.0, "\n## `{preset}`\n\n| what | median (slowest to fastest) | ratio |");
+        let _ = writeln!(self.0, "\n## `{preset}`\n\n| what | median (slowest to fastest) | ratio |");
         self.0.push_str("|---|---|---|\n");
     }
 }
@@ -81,6 +80,7 @@ fn run() -> Result<(), Failure> {
         cycles(&design, &mut table)?;
         sweeps(&design, &mut table)?;
         statistics(&design, &mut table)?;
+        answers(&design, &mut table)?;
         if name == "compact" {
             written(&design, &mut table)?;
         }
@@ -97,15 +97,9 @@ fn cycles(design: &Design, table: &mut Table) -> Result<(), Failure> {
     Pattern::ALL.into_iter().try_for_each(|pattern| patterned(design, &verilated, pattern, table))
 }
 
-fn patterned(
-    design: &Design,
-    verilated: &Verilated,
-    pattern: Pattern,
-    table: &mut Table,
-) -> Result<(), Failure> {
+fn patterned(design: &Design, verilated: &Verilated, pattern: Pattern, table: &mut Table) -> Result<(), Failure> {
     let theirs = verilated.run(pattern, CHECKED, None)?.checksum;
-    let ours =
-        [engines::clocked(design, pattern, CHECKED), engines::streamed(design, pattern, CHECKED)];
+    let ours = [engines::clocked(design, pattern, CHECKED), engines::streamed(design, pattern, CHECKED)];
     // Equal checksums of nothing but zeros would say nothing.
     let share = engines::share_above_zero(design, pattern, CHECKED);
     if share < 0.05 {
@@ -123,11 +117,7 @@ fn patterned(
     let [theirs, clocked, streamed] = &rates;
     let ratio = |rates: &Rates| Some((rates.median() / theirs.median(), "Verilator"));
     let what = |who: &str| format!("{who}, {}", pattern.name());
-    table.row(
-        &what("results above 0"),
-        &format!("{} %", significant(100.0 * share)),
-        "checksums equal",
-    );
+    table.row(&what("results above 0"), &format!("{} %", significant(100.0 * share)), "checksums equal");
     table.line(&what("Verilator, no waves"), theirs, "cycles", None);
     table.line(&what("clocked simulator"), clocked, "cycles", ratio(clocked));
     table.line(&what("many cycles at a time"), streamed, "cycles", ratio(streamed));
@@ -207,24 +197,36 @@ fn written(design: &Design, table: &mut Table) -> Result<(), Failure> {
         rates[0].push(&files::bundle(design, VECTORS, &in_directory("bundle"))?);
         rates[1].push(&files::naive_vectors(design, VECTORS, &in_directory("naive.mem"))?);
         rates[2].push(&files::waves(design, WAVE_CYCLES, &in_directory("ours.vcd"))?);
-        rates[3].push(&verilated.run(
-            Pattern::Random,
-            WAVE_CYCLES,
-            Some(&in_directory("theirs.vcd")),
-        )?);
+        rates[3].push(&verilated.run(Pattern::Random, WAVE_CYCLES, Some(&in_directory("theirs.vcd")))?);
     }
     let [bundle, naive, ours, theirs] = &rates;
     let ratio = |ours: &Rates, theirs: &Rates, of| Some((ours.median() / theirs.median(), of));
     table.line("vectors with `write!`, two files of hex", naive, "bytes", None);
     let of = "`write!`";
-    table.line(
-        "vectors, all files with their checksums",
-        bundle,
-        "bytes",
-        ratio(bundle, naive, of),
-    );
+    table.line("vectors, all files with their checksums", bundle, "bytes", ratio(bundle, naive, of));
     table.line("Verilator with VCD", theirs, "cycles", None);
     table.line("clocked simulator with VCD", ours, "cycles", ratio(ours, theirs, "Verilator"));
+    Ok(())
+}
+
+/// Answers a second to a file of questions, in one thread.
+fn answers(design: &Design, table: &mut Table) -> Result<(), Failure> {
+    let file = tempfile::NamedTempFile::new().map_err(|error| Failure(error.to_string()))?;
+    files::questions(QUESTIONS, file.path())?;
+    let mut rates = [(); 2].map(|()| Rates::default());
+    for _ in 0..TURNS {
+        let ours = files::answered(design, file.path())?;
+        let naive = files::naively_answered(design, file.path())?;
+        if ours.count != QUESTIONS || naive.count != QUESTIONS {
+            return failed(format!("{} and {} answers to {QUESTIONS}", ours.count, naive.count));
+        }
+        rates[0].push(&naive);
+        rates[1].push(&ours);
+    }
+    let [naive, ours] = &rates;
+    let ratio = Some((ours.median() / naive.median(), "`parse`, `writeln!`"));
+    table.line("questions, a line at a time", naive, "answers", None);
+    table.line("questions, `blysk evaluate`", ours, "answers", ratio);
     Ok(())
 }
 
@@ -249,17 +251,18 @@ fn write_docs(path: &Path, machine: &str, tables: &str) -> Result<(), Failure> {
          what is compared took turns. Each is the median of {TURNS} turns (3 for the error statistics), with the \
          slowest and the fastest.\n\n\
          - Verilator runs the RTL that `blysk rtl` writes, built with `-O3 -march=native`, under a loop in C++ that \
-         generates the same requests with the same generator, one in every cycle. Two patterns: *sweep*, n = 4 and every \
-         eighth x from 1 down to 1/2, pass after pass; and *random*, an address and an x at random, 1 − x of all \
-         magnitudes. The checksums of {CHECKED} results were equal before anything was timed. Stimulus and checksum are in \
-         every figure of cycles, and these are in time of the processor; the other figures are in time of the clock on \
-         the wall, except VCD.\n\
-         - Verilator computes every register in every cycle. The model computes what is looked at: here the ports alone. \
-         Many cycles at a time take a stream without stalls or resets.\n\
-         - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where x is below the \
-         cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
-         - The error statistics are those of `blysk report --exhaustive`.\n{tables}"
+         generates the same requests with the same generator, one in every cycle. Two patterns: *sweep*, n = 4 and \
+         every eighth x from 1 down to 1/2, pass after pass; and *random*, an address and an x at random, 1 − x of all \
+         magnitudes. The checksums of {CHECKED} results were equal before anything was timed. Stimulus and checksum \
+         are in every figure of cycles, and these are in time of the processor; the other figures are in time of the \
+         clock on the wall, except VCD.\n\
+         - Verilator computes every register in every cycle. The model computes what is looked at: here the ports \
+         alone. Many cycles at a time take a stream without stalls or resets.\n\
+         - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where x \
+         is below the cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
+         - The error statistics are those of `blysk report --exhaustive`.\n\
+         - Questions are {QUESTIONS} random lines `n,x` of a file; the answers go nowhere. A line at a time: `split`, \
+         `parse`, the answer, x^n and a `writeln!`. In time of the processor, one thread.\n{tables}"
     );
-    std::fs::write(path, text)
-        .map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+    std::fs::write(path, text).map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
 }

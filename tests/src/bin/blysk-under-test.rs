@@ -6,5 +6,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    sim::cmd::main()
+    cli::main()
 }

@@ -32,7 +32,7 @@ const VECTORS: u64 = 4096;
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 5] = [
+const SMALL: [(&str, Strategy, &str); 7] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -58,6 +58,27 @@ const SMALL: [(&str, Strategy, &str); 5] = [
             "output": "UQ1.8", "cut": "balanced", "segments": 2, "widths":
             {"cut": "UQ1.6", "hand_over": "UQ1.3"}}"#,
     ),
+    // Every segment that there can be, of the least degree; and the greatest degree in the power form.
+    (
+        "small_lines",
+        Strategy::Exhaustive,
+        r#"{"name": "small_lines", "method": "minimax", "degree": 1, "segments": 8,
+            "exponents": "1,2,5,16,40", "input": "Q2.9", "output": "UQ1.8", "cut": "balanced",
+            "rounding": "nearest_even"}"#,
+    ),
+    (
+        "small_quartic",
+        Strategy::Exhaustive,
+        r#"{"name": "small_quartic", "method": "minimax", "degree": 4, "exponents": "1,2.5,7",
+            "input": "UQ1.9", "output": "UQ1.7", "form": "power", "tail": "rational",
+            "rounding": "floor", "error_budget_ulp": 3}"#,
+    ),
+];
+
+/// Other degrees and numbers of segments than the presets have, compared like a preset.
+const EXAMPLES: [(&str, &str); 2] = [
+    ("parabolas", include_str!("../../../docs/examples/parabolas.json")),
+    ("quartics", include_str!("../../../docs/examples/quartics.json")),
 ];
 
 /// Scenes whose own hardware is compared like a preset: one that never leaves the epicentre, one of small exponents.
@@ -113,10 +134,7 @@ fn run() -> Result<Totals, Failure> {
     let names: Vec<&str> = simulators.iter().map(|simulator| simulator.name.as_str()).collect();
     let releases = simulators::icarus_releases()?;
     println!("{}", names.join(", "));
-    println!(
-        "{:<14} {:<18} {:>9} {:>10} {:>13}",
-        "preset", "simulator", "vectors", "cycles", "compared"
-    );
+    println!("{:<14} {:<18} {:>9} {:>10} {:>13}", "preset", "simulator", "vectors", "cycles", "compared");
     let presets = presets::ALL.par_iter().map(|preset| {
         let design = design(preset.json)?;
         let emitted = emit(&design, preset.name, Strategy::Mixed, VECTORS)?;
@@ -133,6 +151,11 @@ fn run() -> Result<Totals, Failure> {
         let emitted = emit(&design, scene, Strategy::Mixed, VECTORS)?;
         everything(&emitted, scene, &simulators, Some(SCENE_CYCLES))
     });
+    let examples = EXAMPLES.par_iter().map(|&(name, json)| {
+        let design = design(json)?;
+        let emitted = emit(&design, name, Strategy::Mixed, VECTORS)?;
+        everything(&emitted, name, &simulators, Some(SCENE_CYCLES))
+    });
     let small = SMALL.par_iter().map(|&(name, strategy, json)| {
         let design = design(json)?;
         let emitted = emit(&design, name, strategy, 0)?;
@@ -140,6 +163,7 @@ fn run() -> Result<Totals, Failure> {
     });
     let total: Totals = presets
         .chain(scenes)
+        .chain(examples)
         .chain(small)
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
@@ -242,17 +266,10 @@ fn control(emitted: &Emitted<'_>, name: &str, simulator: &Simulator) -> Result<(
 }
 
 /// Random cycles, every register of which is compared with the clocked pipeline's.
-fn registers(
-    emitted: &Emitted<'_>,
-    name: &str,
-    simulator: &Simulator,
-    cycles: u64,
-) -> Result<Totals, Failure> {
+fn registers(emitted: &Emitted<'_>, name: &str, simulator: &Simulator, cycles: u64) -> Result<Totals, Failure> {
     let mut command = simulator.testbench(&emitted.directory);
     command.arg(format!("+registers={cycles}")).stdout(Stdio::piped());
-    let mut child = command
-        .spawn()
-        .map_err(|error| Failure(format!("cannot run {}: {error}", simulator.name)))?;
+    let mut child = command.spawn().map_err(|error| Failure(format!("cannot run {}: {error}", simulator.name)))?;
     let Some(output) = child.stdout.take() else {
         return failed("no output to compare");
     };
@@ -288,19 +305,12 @@ fn show(name: &str, simulator: &Simulator, totals: &Totals) {
 /// Every planted fault must be reported, and named.
 fn planted(simulator: &Simulator) -> Result<(), Failure> {
     println!("planted faults, in {}:", simulator.name);
-    let verdicts: Vec<String> = FAULTS
-        .par_iter()
-        .enumerate()
-        .map(|(index, fault)| find(simulator, index, fault))
-        .collect::<Result<_, _>>()?;
+    let verdicts: Vec<String> =
+        FAULTS.par_iter().enumerate().map(|(index, fault)| find(simulator, index, fault)).collect::<Result<_, _>>()?;
     for (fault, verdict) in FAULTS.iter().zip(&verdicts) {
         println!("  {} ({}): {}", fault.name, fault.preset, brief(verdict));
     }
-    println!(
-        "{} of {} planted faults were reported with their stage",
-        verdicts.len(),
-        FAULTS.len()
-    );
+    println!("{} of {} planted faults were reported with their stage", verdicts.len(), FAULTS.len());
     Ok(())
 }
 

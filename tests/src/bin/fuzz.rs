@@ -83,8 +83,7 @@ fn supervise(minutes: &str, rest: &[&str]) -> Result<bool, String> {
     }
     let workers = thread::available_parallelism().map_or(1, NonZero::get);
     let share = minutes * 60.0 * workers.min(targets.len()) as f64 / targets.len() as f64;
-    let share =
-        Duration::try_from_secs_f64(share).map_err(|error| format!("{minutes}: {error}"))?;
+    let share = Duration::try_from_secs_f64(share).map_err(|error| format!("{minutes}: {error}"))?;
     let kept = PathBuf::from("results/fuzz");
     fs::create_dir_all(&kept).map_err(said)?;
     let waiting = Mutex::new(targets.iter().rev().collect::<Vec<_>>());
@@ -101,8 +100,7 @@ fn supervise(minutes: &str, rest: &[&str]) -> Result<bool, String> {
         };
         let threads: Vec<_> = (0..workers).map(|_| scope.spawn(one)).collect();
         let ends = threads.into_iter().map(|thread| thread.join());
-        ends.map(|end| end.map_err(|_| "a thread panicked".to_owned())?)
-            .collect::<Result<Vec<_>, _>>()
+        ends.map(|end| end.map_err(|_| "a thread panicked".to_owned())?).collect::<Result<Vec<_>, _>>()
     })?;
     Ok(clean.into_iter().all(|clean| clean))
 }
@@ -221,7 +219,7 @@ fn watch() {
     });
 }
 
-/// One process: runs until its time is over, and leaves the input of each run for whoever looks after its end.
+/// One process: runs until its time is over, and leaves the input of each run for the process that looks after its end.
 fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(), String> {
     let target = Target::find(target).ok_or_else(|| format!("there is no target {target:?}"))?;
     let left = Duration::try_from_secs_f64(number(seconds)?).map_err(|error| error.to_string())?;
@@ -236,8 +234,7 @@ fn work(target: &str, seconds: &str, seed: &str, directory: &Path) -> Result<(),
         if let Err(finding) = campaign.run(&input) {
             let text = format!("{}\n{finding:?}", finding.kind());
             if !found.contains(&text) {
-                fs::write(directory.join(format!("{}.input", found.len())), &input)
-                    .map_err(said)?;
+                fs::write(directory.join(format!("{}.input", found.len())), &input).map_err(said)?;
                 fs::write(directory.join(format!("{}.said", found.len())), &text).map_err(said)?;
                 found.push(text);
             }

@@ -10,11 +10,11 @@ use naive::configurations::Random;
 /// What many runs did.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Figures {
-    /// Runs.
+    /// The number of runs.
     pub runs: u64,
     /// Of them, those whose input was accepted.
     pub accepted: u64,
-    /// The longest.
+    /// The processor time of the longest run.
     pub slowest: Duration,
     /// The most bytes held.
     pub memory: usize,
@@ -47,7 +47,7 @@ impl Campaign {
         self.corpus.len()
     }
 
-    /// The next input.
+    /// The next input: first every file of the corpus as it is, then files of it that are altered.
     pub fn input(&mut self) -> Vec<u8> {
         self.next += 1;
         if let Some(whole) = self.corpus.get(self.next - 1) {

@@ -1,28 +1,28 @@
 //! Certificates: what is accepted, altered or not, must be true by other means than the checker's.
 //!
-//! An altered certificate is tried as it is, and once more sealed again, as somebody would who wants it believed. Truth
-//! is found without intervals, runs or blocks: real errors in f64 for methods, and every x through the data path by
-//! the scalar way for hardware. What is too much work for one run is left out.
+//! An altered certificate is tried as it is, and once more sealed again, as an attacker would who wants it believed.
+//! Truth is found without intervals, runs or blocks: real errors in f64 for methods, and every x through the data path
+//! by the scalar way for hardware. What is too much work for one run is left out.
 
 use std::sync::atomic::AtomicU64;
 
+use analysis::approximation::{Extent as Interval, approximation};
+use bounds::certify::certificate::{Certificate, Claim};
+use bounds::certify::check::check;
+use bounds::certify::claim::{ExponentClaim, Finding, Stretch};
+use bounds::certify::hardware::{HardwareClaim, Worst};
 use hw_model::config::Config;
 use hw_model::datapath::Status;
 use hw_model::design::Design;
 use hw_model::fit::{Levels, fit};
 use hw_model::highlight::phong;
 use hw_model::quantise::real;
+use scenes::render::Codes;
+use scenes::scene::Image;
+use scenes::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use sim::analysis::approximation::{Region as Interval, approximation};
-use sim::certify::certificate::{Certificate, Claim};
-use sim::certify::check::check;
-use sim::certify::claim::{ExponentClaim, Finding, Region};
-use sim::certify::hardware::{HardwareClaim, Worst};
-use sim::render::Codes;
-use sim::scene::Image;
-use sim::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};
 use vectors::checksum::checksum;
 
 use super::{Outcome, Place};
@@ -41,8 +41,7 @@ pub fn certify(bytes: &[u8], _: &Place) -> Outcome {
     let mut outcome = Outcome::Refused;
     for text in texts.into_iter().flatten() {
         let Ok(certificate) = Certificate::parse(&text) else { continue };
-        if is_little(certificate.claim()) && check(&certificate, &text, &AtomicU64::new(0)).is_ok()
-        {
+        if is_little(certificate.claim()) && check(&certificate, &text, &AtomicU64::new(0)).is_ok() {
             demand_truth(certificate.claim());
             outcome = Outcome::Accepted;
         }
@@ -51,10 +50,7 @@ pub fn certify(bytes: &[u8], _: &Place) -> Outcome {
 }
 
 /// The text of a certificate with its seal made right for what stands in it; none where it cannot be read.
-fn sealed<T: Serialize + DeserializeOwned>(
-    bytes: &[u8],
-    statement: impl Fn(&T) -> Option<String>,
-) -> Option<String> {
+fn sealed<T: Serialize + DeserializeOwned>(bytes: &[u8], statement: impl Fn(&T) -> Option<String>) -> Option<String> {
     let mut value: Value = serde_json::from_slice(bytes).ok()?;
     value.as_object_mut()?.insert("sha256".to_owned(), Value::from(""));
     let read: T = serde_json::from_value(value.clone()).ok()?;
@@ -89,7 +85,7 @@ fn demand_truth(claim: &Claim) {
         Claim::EveryExponent(claims) => {
             for claim in &claims.claims {
                 for n in [1.0, 1.5, 2.5, 4.0, 8.5, 64.0, 1e4] {
-                    let found = errors(claim.method, n, Region::Epicentre, claims.levels);
+                    let found = errors(claim.method, n, Stretch::Epicentre, claims.levels);
                     let bounds = [claim.absolute.upper, claim.relative.upper];
                     for (found, bound) in found.into_iter().zip(bounds) {
                         assert!(found <= within(bound), "{claim:?}: {found} at n = {n}");
@@ -106,11 +102,11 @@ fn within(bound: f64) -> f64 {
 }
 
 /// The absolute and the relative error of a method, in f64.
-fn errors(method: hw_model::fit::Method, n: f64, region: Region, levels: Levels) -> [f64; 2] {
+fn errors(method: hw_model::fit::Method, n: f64, region: Stretch, levels: Levels) -> [f64; 2] {
     let fit = fit(method, n, levels).expect("an exponent that was accepted");
     let interval = match region {
-        Region::Epicentre => Interval::epicentre(&fit),
-        Region::Tail => Interval::tail(&fit),
+        Stretch::Epicentre => Interval::epicentre(&fit),
+        Stretch::Tail => Interval::tail(&fit),
     };
     let found = approximation(&fit, n, interval);
     [found.absolute.error, found.relative.map_or(0.0, |peak| peak.error)]
@@ -141,9 +137,7 @@ fn hardware_is_so(claim: &HardwareClaim) {
         let from = design.rows()[address as usize].first_of_epicentre(config);
         let worst = |from: i64| (from..=greatest).map(error).fold(0.0, f64::max);
         let found = [worst(from.max(0)), worst(0)];
-        for ((claimed, found), overall) in
-            [row.epicentre, row.full_range].into_iter().zip(found).zip(&mut overall)
-        {
+        for ((claimed, found), overall) in [row.epicentre, row.full_range].into_iter().zip(found).zip(&mut overall) {
             let Worst { lower, upper, .. } = claimed;
             assert!(lower <= within(found) && found <= within(upper), "{row:?}: {found}");
             *overall = overall.max(found);
@@ -187,12 +181,7 @@ fn specialised_is_so(certificate: &Specialised) {
     let design = |config: &Config| Design::new(config.clone()).expect("it was accepted");
     let designs = [design(&certificate.source), design(&certificate.specialised)];
     let display = certificate.display;
-    let codes = Codes::new(&Image {
-        width: 1,
-        height: 1,
-        display_bits: display.bits,
-        transfer: display.transfer,
-    });
+    let codes = Codes::new(&Image { width: 1, height: 1, display_bits: display.bits, transfer: display.transfer });
     for part in &certificate.parts {
         let again = part_again(&designs, part, &codes, certificate.proved);
         assert_eq!(&again, part, "every x says otherwise");
@@ -203,9 +192,9 @@ fn specialised_is_so(certificate: &Specialised) {
 
 /// The same part as every x says it, one by one.
 fn part_again(designs: &[Design; 2], part: &Part, codes: &Codes, proved: Proved) -> Part {
-    let addresses = designs.each_ref().map(|design| {
-        design.rom().exponents().position(part.n).expect("a word for each exponent") as u32
-    });
+    let addresses = designs
+        .each_ref()
+        .map(|design| design.rom().exponents().position(part.n).expect("a word for each exponent") as u32);
     let answer = |which: usize, x: i64| {
         let signals = designs[which].datapath().evaluate(addresses[which], x);
         (real(signals.intensity, designs[which].config().output), signals.status)
@@ -243,8 +232,7 @@ mod tests {
 
     /// A certificate of the corpus with a number made another one, sealed again.
     fn altered(name: &str, pointer: &str, factor: f64) -> Certificate {
-        let mut value: Value =
-            serde_json::from_slice(&from_corpus(&["certificate", name])).unwrap();
+        let mut value: Value = serde_json::from_slice(&from_corpus(&["certificate", name])).unwrap();
         let number = value.pointer_mut(pointer).unwrap();
         *number = Value::from(number.as_f64().unwrap() * factor);
         let statement = |certificate: &Certificate| Some(certificate.claim().statement());
@@ -265,9 +253,7 @@ mod tests {
             ("tail.json", "/claim/exponents/claims/0/absolute/enclosed/upper", 0.99),
             ("every.json", "/claim/every_exponent/claims/0/absolute/upper", 0.5),
         ] {
-            let so = |factor| {
-                catch_unwind(|| demand_truth(altered(name, pointer, factor).claim())).is_ok()
-            };
+            let so = |factor| catch_unwind(|| demand_truth(altered(name, pointer, factor).claim())).is_ok();
             assert!(so(1.0), "{name} is so");
             assert!(!so(factor), "{name} with {pointer} times {factor} is not so");
         }

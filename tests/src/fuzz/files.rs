@@ -24,16 +24,9 @@ pub fn stimulus(bytes: &[u8], place: &Place) -> Outcome {
     let Ok(cycles) = parse_stimulus(bytes, Path::new("in.csv"), design.rom(), input) else {
         return Outcome::Refused;
     };
-    let rows = cycles.iter().map(|line| {
-        let request = line.valid.then_some((line.case.address, line.case.x));
-        Ok::<_, ()>(StimulusCycle { request, ready: line.ready, reset: line.reset })
-    });
-    let counts =
-        run(&mut Pipeline::new(design.datapath()), rows, |_| Ok(())).expect("nobody fails");
-    assert!(
-        counts.cycles >= cycles.len() as u64 && counts.results <= counts.requests,
-        "{counts:?}"
-    );
+    let rows = cycles.iter().map(|line| Ok::<_, ()>(StimulusCycle::from(line)));
+    let counts = run(&mut Pipeline::new(design.datapath()), rows, |_| Ok(())).expect("nobody fails");
+    assert!(counts.cycles >= cycles.len() as u64 && counts.results <= counts.requests, "{counts:?}");
     Outcome::Accepted
 }
 
@@ -41,9 +34,7 @@ pub fn stimulus(bytes: &[u8], place: &Place) -> Outcome {
 pub fn answers(bytes: &[u8], place: &Place) -> Outcome {
     let verdict = check(place.bundle(), &place.file("dut.csv", bytes));
     if let Ok(verdict) = &verdict {
-        assert!(
-            verdict.failing() <= verdict.vectors && verdict.holds() == (verdict.failing() == 0)
-        );
+        assert!(verdict.failing() <= verdict.vectors && verdict.holds() == (verdict.failing() == 0));
     }
     Outcome::of(&verdict)
 }
@@ -60,9 +51,7 @@ pub fn memory(bytes: &[u8], place: &Place) -> Outcome {
     }
     let path = place.file("rom.mem", bytes);
     let mut outcome = Outcome::Refused;
-    for (width, depth) in
-        [(0, 1), (8, 4), (16, 12), (39, 4), (64, 65536), (u32::MAX, 4), (39, usize::MAX)]
-    {
+    for (width, depth) in [(0, 1), (8, 4), (16, 12), (39, 4), (64, 65536), (u32::MAX, 4), (39, usize::MAX)] {
         if let Ok(words) = read_words(&path, width, depth) {
             assert_eq!(words.len(), depth);
             outcome = Outcome::Accepted;

@@ -44,14 +44,14 @@ impl Outcome {
     }
 }
 
-/// One reader.
+/// A reader, with what is done with what it reads.
 #[derive(Debug, Clone, Copy)]
 pub struct Target {
     /// Its name, and that of its corpus.
     pub name: &'static str,
     /// What its inputs look like.
     pub form: Form,
-    /// Reads an input.
+    /// Reads an input, uses what was read, and tells whether it was accepted.
     pub run: fn(&[u8], &Place) -> Outcome,
 }
 
@@ -59,7 +59,7 @@ const fn target(name: &'static str, form: Form, run: fn(&[u8], &Place) -> Outcom
     Target { name, form, run }
 }
 
-/// Every target.
+/// Every target, in the order of the tables.
 pub const TARGETS: [Target; 13] = [
     target("configuration", Form::Json, readers::configuration),
     target("exponents", Form::Lines, readers::exponents),
@@ -96,10 +96,8 @@ impl Target {
     #[must_use]
     pub fn corpus(&self) -> Vec<Vec<u8>> {
         let directory = self.corpus_directory();
-        let entries =
-            fs::read_dir(&directory).unwrap_or_else(|error| panic!("{directory:?}: {error}"));
-        let mut paths: Vec<PathBuf> =
-            entries.map(|entry| entry.expect("an entry of the corpus").path()).collect();
+        let entries = fs::read_dir(&directory).unwrap_or_else(|error| panic!("{directory:?}: {error}"));
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry of the corpus").path()).collect();
         paths.sort();
         assert!(!paths.is_empty(), "{directory:?} is empty");
         paths.iter().map(|path| fs::read(path).expect("a file of the corpus")).collect()

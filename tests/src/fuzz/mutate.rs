@@ -8,9 +8,9 @@ use naive::configurations::Random;
 /// What an input looks like, and so what is altered in it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// JSON.
+    /// A JSON document, altered node by node.
     Json,
-    /// Lines of tokens.
+    /// Lines of tokens, altered line by line.
     Lines,
     /// Several files in one (`archive`).
     Archive,
@@ -127,8 +127,7 @@ fn altered_text(bytes: &[u8], second: &[u8], random: &mut Random) -> Vec<u8> {
     let (Ok(text), Ok(second)) = (std::str::from_utf8(bytes), std::str::from_utf8(second)) else {
         return altered_bytes(bytes, random);
     };
-    if random.once_in(3) { lines(text, second, random) } else { tokens(text, second, random) }
-        .into_bytes()
+    if random.once_in(3) { lines(text, second, random) } else { tokens(text, second, random) }.into_bytes()
 }
 
 fn lines(text: &str, second: &str, random: &mut Random) -> String {
@@ -196,9 +195,7 @@ fn altered_json(bytes: &[u8], second: &[u8], random: &mut Random) -> Vec<u8> {
         return altered_text(bytes, second, random);
     };
     let graft = serde_json::from_slice::<Value>(second).unwrap_or_default();
-    let graft = node(&mut graft.clone(), &mut place(count(&graft) - 1, random))
-        .cloned()
-        .unwrap_or_default();
+    let graft = node(&mut graft.clone(), &mut place(count(&graft) - 1, random)).cloned().unwrap_or_default();
     let mut at = place(count(&value) - 1, random);
     if let Some(found) = node(&mut value, &mut at) {
         alter(found, graft, random);
@@ -230,9 +227,7 @@ fn node<'a>(value: &'a mut Value, at: &mut usize) -> Option<&'a mut Value> {
 fn alter(value: &mut Value, graft: Value, random: &mut Random) {
     match value {
         _ if random.once_in(6) => *value = graft,
-        Value::Number(number) if random.once_in(2) => {
-            *value = near(number.as_f64().unwrap_or(0.0), random)
-        }
+        Value::Number(number) if random.once_in(2) => *value = near(number.as_f64().unwrap_or(0.0), random),
         Value::Number(_) => *value = any(random),
         Value::String(text) if !random.once_in(6) => *text = tokens(text, "", random),
         Value::Array(list) if !list.is_empty() => {

@@ -28,7 +28,7 @@ pub fn overwrite(path: &Path, bytes: &[u8]) -> io::Result<()> {
 #[derive(Debug)]
 pub struct Place {
     directory: TempDir,
-    /// The hardware.
+    /// The hardware that bundles and logs are judged against.
     pub design: Design,
 }
 

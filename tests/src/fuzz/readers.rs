@@ -2,16 +2,16 @@
 
 use std::io;
 
+use analysis::pareto::synthesis;
+use analysis::report::pareto as tables;
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
-use sim::analysis::pareto::synthesis;
-use sim::render::{Pipeline, Which, samples};
-use sim::report::pareto as tables;
-use sim::scene::{Normals, Scene, triangles};
-use sim::specialise::demands;
+use scenes::render::{ScenePipeline, Which, samples};
+use scenes::scene::{Normals, Scene, triangles};
+use scenes::specialise::demands;
 use vectors::Strategy;
 
 use super::{Outcome, Place};
@@ -60,9 +60,7 @@ pub fn exponents(bytes: &[u8], _: &Place) -> Outcome {
         }
         if let Ok(format) = line.parse::<QFormat>() {
             assert_eq!(format.to_string().parse::<QFormat>().as_ref(), Ok(&format));
-            assert!(
-                format.holds(format.min_bits().into()) && format.holds(format.max_bits().into())
-            );
+            assert!(format.holds(format.min_bits().into()) && format.holds(format.max_bits().into()));
         }
         let _ = parse_exponent(line);
         let _ = line.parse::<Method>();
@@ -88,7 +86,7 @@ pub fn scene(bytes: &[u8], place: &Place) -> Outcome {
     for demand in demands(&scene) {
         assert!(demand.least <= demand.greatest, "{demand:?}");
     }
-    if let Ok(pipeline) = Pipeline::new(&place.design, &scene) {
+    if let Ok(pipeline) = ScenePipeline::new(&place.design, &scene) {
         let _ = pipeline.answers(&found, Which::Needed);
     }
     Outcome::Accepted

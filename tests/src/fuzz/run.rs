@@ -83,8 +83,7 @@ pub fn run(target: &Target, input: &[u8], place: &Place) -> Result<Ran, Finding>
     let (time, memory) = (begun.elapsed(), PeakAlloc.peak_usage());
     // A run that had to wait for a processor is not a slow one.
     let time = time.min(processor_time().saturating_sub(worked));
-    let outcome = outcome
-        .map_err(|_| Finding::Panic(SAID.lock().unwrap_or_else(PoisonError::into_inner).clone()))?;
+    let outcome = outcome.map_err(|_| Finding::Panic(SAID.lock().unwrap_or_else(PoisonError::into_inner).clone()))?;
     if time > SLOWEST {
         return Err(Finding::TimeOut(time));
     }

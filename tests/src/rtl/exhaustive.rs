@@ -16,12 +16,12 @@ const CHUNK: usize = 1 << 16;
 
 const HARNESS: &str = include_str!("exhaustive.cpp");
 
-/// What was compared.
+/// How many results of a run were compared, and how many differ.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Results.
+    /// The number of results compared.
     pub compared: u64,
-    /// Results that differ.
+    /// The number of results that differ from the model's.
     pub different: u64,
 }
 
@@ -76,9 +76,9 @@ pub fn compare(
         while x <= greatest {
             let count = CHUNK.min((greatest - x) as usize + 1);
             let bytes = &mut bytes[..count * 4];
-            words.read_exact(bytes).map_err(|error| {
-                Failure(format!("address {address}, x from {x}: results are missing: {error}"))
-            })?;
+            words
+                .read_exact(bytes)
+                .map_err(|error| Failure(format!("address {address}, x from {x}: results are missing: {error}")))?;
             golden.evaluate(address, x, count);
             counts.compared += count as u64;
             counts.different += golden.differences(bytes);

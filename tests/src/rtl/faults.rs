@@ -4,18 +4,18 @@ use std::path::Path;
 
 use super::{Failure, failed};
 
-/// One wrong line.
+/// One line of the RTL, written wrongly on purpose.
 #[derive(Debug, Clone, Copy)]
 pub struct Fault {
     /// What is wrong, in a few words.
     pub name: &'static str,
     /// The preset it is planted in.
     pub preset: &'static str,
-    /// The file.
+    /// The name of the RTL file.
     pub file: &'static str,
     /// The right text, which stands there once.
     pub right: &'static str,
-    /// The wrong text.
+    /// The wrong text that takes its place.
     pub wrong: &'static str,
     /// What the verdict must name: a register, or the handshake.
     pub named: &'static str,
@@ -23,14 +23,7 @@ pub struct Fault {
 
 macro_rules! fault {
     ($name:literal, $preset:literal, $file:literal, $right:literal => $wrong:literal, $named:literal) => {
-        Fault {
-            name: $name,
-            preset: $preset,
-            file: $file,
-            right: $right,
-            wrong: $wrong,
-            named: $named,
-        }
+        Fault { name: $name, preset: $preset, file: $file, right: $right, wrong: $wrong, named: $named }
     };
 }
 
@@ -39,11 +32,12 @@ pub const FAULTS: &[Fault] = &[
     fault!("rounding dropped in every line", "compact", "blysk_round_shift.sv",
         "assign added = HALF;" => "assign added = '0;", "front_end.v"),
     fault!("stage 1 adds", "compact", "blysk.sv",
-        ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(blysk_pkg::CENTRED)" => ".T_WIDTH(blysk_pkg::T1_WIDTH), .SUBTRACT(0)", "stage1.t1"),
+        ".SUBTRACT(blysk_pkg::CENTRED)" => ".SUBTRACT(j == 1 ? 0 : blysk_pkg::CENTRED)", "stage1.t1"),
     fault!("stage 2 shifts the addend one place less", "compact", "blysk.sv",
-        ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP)" => ".ADDEND_UP(blysk_pkg::T2_ADDEND_UP - 1)", "stage2.t2"),
+        ".ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32])"
+            => ".ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32] - (j == 2 ? 1 : 0))", "stage2.t2"),
     fault!("stage 3 drops one bit more", "compact", "blysk.sv",
-        ".DROP(blysk_pkg::T3_DROP)" => ".DROP(blysk_pkg::T3_DROP + 1)", "stage3.t3"),
+        ".DROP(blysk_pkg::T_DROP[32*j+:32])" => ".DROP(blysk_pkg::T_DROP[32*j+:32] + (j == 3 ? 1 : 0))", "stage3.t3"),
     fault!("cut off by one", "compact", "blysk_front_end.sv",
         "'(x) >= " => "'(x) > ", "front_end."),
     fault!("no region still answers", "compact", "blysk_clamp.sv",
@@ -51,9 +45,10 @@ pub const FAULTS: &[Fault] = &[
     fault!("x above 1 not clamped", "compact", "blysk_front_end.sv",
         "above_one ? blysk_pkg::X_GREATEST :" => "1'b0 ? blysk_pkg::X_GREATEST :", "front_end.v"),
     fault!("ROM reads a row too far", "compact", "blysk_rom.sv",
-        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0" => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
+        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0"
+            => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
     fault!("v does not wait for stage 3", "compact", "blysk.sv",
-        ".value_i(v_at_2), .value_o(v_at_3)" => ".value_i(v), .value_o(v_at_3)", "stage2.v"),
+        ".value_i(stage[j-1].v_here)" => ".value_i(j == 3 ? v : stage[j-1].v_here)", "stage2.v"),
     fault!("the pipeline does not stall", "compact", "blysk_handshake.sv",
         "out_ready_i || !(&valid_q[RANKS-1:rank])" => "1'b1", "handshake"),
     fault!("the pipeline does not stall", "small_compact", "blysk_handshake.sv",
@@ -73,17 +68,20 @@ pub const FAULTS: &[Fault] = &[
     fault!("nothing moves in reset", "compact", "blysk_handshake.sv",
         "assign load_o  = advance & offered;" => "assign load_o  = rst_i ? '0 : advance & offered;", " is "),
     fault!("a valid flag out of nothing", "compact", "blysk_handshake.sv",
-        "assign valid_d = (advance & offered)" => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)", "valid flag of rank 2 is 1, expected 0"),
+        "assign valid_d = (advance & offered)"
+            => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)",
+        "valid flag of rank 2 is 1, expected 0"),
     fault!("c1 loads while it stalls", "compact", "blysk.sv",
-        ".clk_i, .load_i(load[2:1]), .value_i(c1_chosen)" => ".clk_i, .load_i(2'b11), .value_i(c1_chosen)", ".c1 is"),
+        ".load_i(load[RANKS:1]), .value_i(chosen)"
+            => ".load_i(load[RANKS:1] | {RANKS{i == 1}}), .value_i(chosen)", ".c1 is"),
     fault!("a stage loads while it stalls", "compact", "blysk_stage.sv",
         "if (load_i) t_q <= t_d;" => "t_q <= t_d;", "stage"),
     fault!("the outer segment takes the inner one's c2", "precise", "blysk.sv",
-        "c2_chosen = outer ? c2_outer : c2;" => "c2_chosen = outer ? c2 : c2;", ".c2 is"),
+        "beyond[k] ? fields[PLACE+:WIDTH]" => "beyond[k] && i != 2 ? fields[PLACE+:WIDTH]", ".c2 is"),
     fault!("the cut not in the unit of x", "small_ends", "blysk_front_end.sv",
-        "'(cut_i) << blysk_pkg::CUT_UP;" => "'(cut_i);", "front_end."),
+        "'(of_row) << blysk_pkg::CUT_UP;" => "'(of_row);", "front_end."),
     fault!("the second segment counts from the hand-over in its own unit", "small_ends", "blysk_front_end.sv",
-        "S_WIDTH'(hand_over_i) << blysk_pkg::HAND_OVER_UP" => "S_WIDTH'(hand_over_i)", "front_end.v is"),
+        "S_WIDTH'(of_row) << blysk_pkg::HAND_OVER_UP" => "S_WIDTH'(of_row)", "front_end.v is"),
     fault!("the divisor adds", "paper", "blysk_tail.sv",
         ".SUBTRACT(1)" => ".SUBTRACT(0)", "tail0.divisor is"),
     fault!("the dividend a place too low", "paper", "blysk_tail.sv",
@@ -95,7 +93,8 @@ pub const FAULTS: &[Fault] = &[
     fault!("quotient not rounded", "paper", "blysk_clamp.sv",
         ".MODE(blysk_pkg::QUOTIENT_ROUNDING)" => ".MODE(0)", "clamp.intensity"),
     fault!("polynomial and tail swapped", "paper", "blysk_clamp.sv",
-        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;" => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
+        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;"
+            => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
 ];
 
 impl Fault {
@@ -106,10 +105,7 @@ impl Fault {
     pub fn apply(&self, text: &str) -> Result<String, Failure> {
         match text.matches(self.right).count() {
             1 => Ok(text.replace(self.right, self.wrong)),
-            places => failed(format!(
-                "the fault \"{}\" fits {places} places of {}, not one",
-                self.name, self.file
-            )),
+            places => failed(format!("the fault \"{}\" fits {places} places of {}, not one", self.name, self.file)),
         }
     }
 

@@ -39,9 +39,7 @@ pub fn check_dut(design: &Design) -> Result<(), Failure> {
         let bundle = Bundle::new(design, Strategy::Mixed, 256, 1, "make rtl")?;
         let mut set = OutputSet::create(&directory)?;
         rtl::stage(&bundle, OWN, "make rtl", &mut set)?;
-        let own = SOURCES.map(|(_, text)| {
-            text.replace(&format!("module {TOP} #("), &format!("module {OWN} #("))
-        });
+        let own = SOURCES.map(|(_, text)| text.replace(&format!("module {TOP} #("), &format!("module {OWN} #(")));
         set.write(&format!("{OWN}.sv"), own.concat())?;
         set.commit()?;
         Ok(())
@@ -73,8 +71,7 @@ fn run(directory: &Path, arguments: &[&str]) -> Result<String, Failure> {
         .env_remove("MFLAGS")
         .env_remove("MAKELEVEL")
         .output();
-    let output = output
-        .map_err(|error| Failure(format!("cannot run fusesoc: {error}; run scripts/setup")))?;
+    let output = output.map_err(|error| Failure(format!("cannot run fusesoc: {error}; run scripts/setup")))?;
     let text = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
     if output.status.success() { Ok(text) } else { failed(format!("FuseSoC: {text}")) }
 }

@@ -5,7 +5,8 @@ use std::process::Command;
 
 use hw_model::datapath::Datapath;
 use hw_model::datapath::front_end::Variable;
-use hw_model::rom::{FieldName, Place};
+use hw_model::registers::Register;
+use hw_model::rom::Place;
 
 use super::workspace::Emitted;
 use super::{Failure, failed};
@@ -19,7 +20,7 @@ type Part = (&'static str, &'static str, u64);
 /// Parts of the sources as they are elaborated: nothing is optimised away yet, so a part that is
 /// instantiated and not used is found.
 fn elaborated(datapath: &Datapath) -> Vec<Part> {
-    let stages = datapath.stages().map_or(0, |stages| stages.len() as u64);
+    let stages = datapath.degree() as u64;
     let divider = datapath.divider();
     let tails = u64::from(divider.is_some());
     let digit_stages = divider.map_or(0, |divider| u64::from(divider.digit_stages()));
@@ -35,18 +36,14 @@ fn flat(datapath: &Datapath) -> Vec<Part> {
     let formats = datapath.formats();
     let polynomial = formats.polynomial.as_ref();
     let clamps_x = formats.input.max_bits() > datapath.front_end().greatest;
-    let clamps_t3 = datapath.t3_exceeds_one();
+    let clamps_polynomial = datapath.last_exceeds_one();
     let digits = datapath.divider().map_or(0, |divider| u64::from(divider.digit_count));
     let shift = matches!(datapath.front_end().variable, Some(Variable::U { .. }))
-        && constant(datapath, FieldName::Shift).is_none();
-    let greater = [clamps_x, clamps_t3, digits > 0];
+        && (0..datapath.segment_count()).any(|segment| constant(datapath, Register::Shift(segment)).is_none());
+    let greater = [clamps_x, clamps_polynomial, digits > 0];
     vec![
         ("comparisons >= (cut, quotient bits)", "t:$ge", u64::from(polynomial.is_some()) + digits),
-        (
-            "comparisons > (x, t3, quotient)",
-            "t:$gt",
-            greater.into_iter().map(u64::from).sum::<u64>(),
-        ),
+        ("comparisons > (x, polynomial, quotient)", "t:$gt", greater.into_iter().map(u64::from).sum::<u64>()),
         ("shifts by e", "t:$shl", u64::from(shift)),
     ]
 }
@@ -55,12 +52,12 @@ fn flat(datapath: &Datapath) -> Vec<Part> {
 fn flip_flops(datapath: &Datapath) -> Part {
     let width = |rank, name, width: u32| {
         // Of the status rank 0 has what it knows: no_word.
-        if (rank, name) == (0, "status") { 1 } else { u64::from(width) }
+        if (rank, name) == (0, Register::Status) { 1 } else { u64::from(width) }
     };
     let ranks = 0..datapath.rank_count();
     let bits = ranks.map(|rank| {
         let registers = datapath.registers(rank).into_iter();
-        1 + registers.map(|held| width(rank, held.name, held.format.width())).sum::<u64>()
+        1 + registers.map(|held| width(rank, held.register, held.format.width())).sum::<u64>()
     });
     ("flip-flops", "t:$_*DFF*", bits.sum())
 }
@@ -72,16 +69,16 @@ fn multipliers(datapath: &Datapath) -> Part {
         let field = datapath.rom().layout().field(field);
         field.is_some_and(|field| field.format.width() == 1 && !field.format.is_signed())
     };
-    let needed = |field| {
-        !one_bit(field) && constant(datapath, field).is_none_or(|bits| bits.count_ones() > 1)
-    };
-    let polynomial = datapath.stages().map_or(0, |_| 2 + u64::from(needed(FieldName::C3)));
-    let tail = datapath.divider().map_or(0, |_| u64::from(needed(FieldName::TailB)));
+    let needed = |field| !one_bit(field) && constant(datapath, field).is_none_or(|bits| bits.count_ones() > 1);
+    let degree = datapath.degree();
+    let first = u64::from(needed(Register::C(0, degree)));
+    let polynomial = if degree > 0 { degree as u64 - 1 + first } else { 0 };
+    let tail = datapath.divider().map_or(0, |_| u64::from(needed(Register::TailB)));
     ("multipliers", "t:$mul", polynomial + tail)
 }
 
 /// The bits of a field that is the same in every row.
-fn constant(datapath: &Datapath, field: FieldName) -> Option<i64> {
+fn constant(datapath: &Datapath, field: Register) -> Option<i64> {
     match datapath.rom().layout().field(field)?.place {
         Place::Constant { bits } => Some(bits),
         Place::Stored { .. } => None,
@@ -97,10 +94,7 @@ pub fn check(emitted: &Emitted<'_>) -> Result<(u64, u64), Failure> {
     let files = hw_model::rtl::SOURCES.map(|(name, _)| name).join(" ");
     let (multipliers, flip_flops) = (multipliers(datapath), flip_flops(datapath));
     let steps = [
-        (
-            format!("read_verilog -sv blysk_pkg.sv {files}; hierarchy -top blysk; proc"),
-            elaborated(datapath),
-        ),
+        (format!("read_verilog -sv blysk_pkg.sv {files}; hierarchy -top blysk; proc"), elaborated(datapath)),
         ("flatten; opt_clean -purge".to_owned(), flat(datapath)),
         // Constants are folded for this one: a product with 0 is no multiplier.
         ("opt_expr; opt_clean -purge".to_owned(), vec![multipliers]),
@@ -116,9 +110,7 @@ pub fn check(emitted: &Emitted<'_>) -> Result<(u64, u64), Failure> {
     let script: Vec<String> = steps
         .iter()
         .flat_map(|(commands, parts)| {
-            let counts = parts
-                .iter()
-                .map(|(_, select, _)| format!("tee -q -a {COUNTS} select -count {select}"));
+            let counts = parts.iter().map(|(_, select, _)| format!("tee -q -a {COUNTS} select -count {select}"));
             std::iter::once(commands.clone()).chain(counts)
         })
         .collect();

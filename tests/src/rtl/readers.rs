@@ -10,8 +10,7 @@ use super::{Failure, failed};
 
 /// The one warning of slang's that is not wanted: a cast to a width of the package changes nothing in those
 /// configurations in which both widths are equal.
-const SLANG: [&str; 6] =
-    ["-Wextra", "-Wpedantic", "-Wno-useless-cast", "-Werror", "--top", "blysk_tb"];
+const SLANG: [&str; 6] = ["-Wextra", "-Wpedantic", "-Wno-useless-cast", "-Werror", "--top", "blysk_tb"];
 
 /// What Surelog ends with, for each kind of message that must not be there.
 const SURELOG: [&str; 4] = ["[  FATAL] : 0", "[ SYNTAX] : 0", "[  ERROR] : 0", "[WARNING] : 0"];

@@ -14,12 +14,7 @@ use super::{Failure, failed};
 ///
 /// # Errors
 /// The first difference; when a port or register was not found in the waves, and so not compared.
-pub fn replay(
-    directory: &Path,
-    datapath: &Datapath,
-    waves: &Path,
-    scope: &str,
-) -> Result<(), Failure> {
+pub fn replay(directory: &Path, datapath: &Datapath, waves: &Path, scope: &str) -> Result<(), Failure> {
     let files = SOURCES.map(|(name, _)| name).join(" ");
     let script = format!(
         "read_verilog -sv {PACKAGE} {files}; prep -top {TOP}; flatten; \

@@ -7,10 +7,10 @@ use super::simulators::Simulator;
 use super::workspace::{Emitted, copy};
 use super::{Failure, failed};
 
-/// A wrong image.
+/// A ROM image that is no image of this ROM.
 #[derive(Debug, Clone)]
 pub struct Wrong {
-    /// In which way.
+    /// In which way it is wrong.
     pub name: &'static str,
     /// Its contents; none where there is no file.
     pub contents: Option<String>,
@@ -31,8 +31,7 @@ pub fn wrong_images(right: &str) -> Vec<Wrong> {
         let all: Vec<String> = lines.iter().enumerate().map(changed).collect();
         Some(all.join("\n") + "\n")
     };
-    let count =
-        |found: usize| format!("rom.mem: the ROM image has {found} words and must have {words}");
+    let count = |found: usize| format!("rom.mem: the ROM image has {found} words and must have {words}");
     let at = |line: usize| format!("rom.mem, line {}: no words of ", line + 1);
     let last = lines.len() - 1;
     let wrong = |name, contents, said| Wrong { name, contents, said };

@@ -32,7 +32,7 @@ const ICARUS_RELEASES: [&str; 3] = ["11.0", "12.0", "13.0"];
 pub struct Verdict {
     /// The last line: `PASS …` or `FAIL …`.
     pub last: String,
-    /// Everything.
+    /// Everything that the simulation printed.
     pub text: String,
 }
 
@@ -94,11 +94,7 @@ pub fn icarus_releases() -> Result<Vec<Simulator>, Failure> {
         }
         let programs = repository().join("target/icarus").join(release).join("bin");
         let found = icarus(programs.join("iverilog"), programs.join("vvp"))?;
-        if found.name == name {
-            Ok(found)
-        } else {
-            failed(format!("{} is {}", programs.display(), found.name))
-        }
+        if found.name == name { Ok(found) } else { failed(format!("{} is {}", programs.display(), found.name)) }
     };
     ICARUS_RELEASES.iter().map(release).collect()
 }
@@ -122,9 +118,7 @@ fn newer_verilator(root: &Path) -> Result<Simulator, Failure> {
         .flatten()
         .flatten()
         .filter_map(|entry| entry.file_name().into_string().ok())
-        .find_map(|name| {
-            name.strip_prefix("verilator-")?.strip_suffix(".dist-info").map(str::to_owned)
-        });
+        .find_map(|name| name.strip_prefix("verilator-")?.strip_suffix(".dist-info").map(str::to_owned));
     Ok(Simulator {
         name: format!("Verilator {}", version.unwrap_or_else(|| "?".to_owned())),
         target: "verilator",
@@ -135,8 +129,7 @@ fn newer_verilator(root: &Path) -> Result<Simulator, Failure> {
 /// The directory of a package of the Python environment that has this file in it.
 pub(super) fn python_package(root: &Path, name: &str, file: &str) -> Option<PathBuf> {
     let versions = std::fs::read_dir(root.join("target/venv/lib")).ok()?;
-    let mut packages =
-        versions.flatten().map(|entry| entry.path().join("site-packages").join(name));
+    let mut packages = versions.flatten().map(|entry| entry.path().join("site-packages").join(name));
     packages.find(|path| path.join(file).is_file())
 }
 
@@ -169,10 +162,7 @@ fn first_line(command: &mut Command) -> Result<String, Failure> {
             let text = String::from_utf8_lossy(&output.stdout).into_owned();
             Ok(text.lines().next().unwrap_or_default().to_owned())
         }
-        Err(error) => failed(format!(
-            "cannot run {}: {error}; run scripts/setup",
-            command.get_program().display()
-        )),
+        Err(error) => failed(format!("cannot run {}: {error}; run scripts/setup", command.get_program().display())),
     }
 }
 
@@ -205,9 +195,7 @@ impl Simulator {
             Tool::Verilator { program, root } => {
                 command.arg(format!("VERILATOR={}", program.display()));
                 // Half of each build is Verilator's own library, the same every time: compiled once.
-                command
-                    .env("OBJCACHE", "ccache")
-                    .env("CCACHE_DIR", repository().join("target/ccache"));
+                command.env("OBJCACHE", "ccache").env("CCACHE_DIR", repository().join("target/ccache"));
                 if let Some(root) = root {
                     command.env("VERILATOR_ROOT", root);
                 }
@@ -221,8 +209,7 @@ impl Simulator {
     /// # Errors
     /// When it cannot be built, or says neither PASS nor FAIL.
     pub fn run(&self, directory: &Path, plusargs: &str) -> Result<Verdict, Failure> {
-        let output =
-            self.make(directory, self.target).arg(format!("ARGUMENTS={plusargs}")).output();
+        let output = self.make(directory, self.target).arg(format!("ARGUMENTS={plusargs}")).output();
         let output = output.map_err(|error| Failure(format!("cannot run make: {error}")))?;
         self.verdict(&output)
     }
@@ -271,8 +258,7 @@ impl Simulator {
     /// With what was said.
     pub fn flow(&self, directory: &Path) -> Result<(), Failure> {
         let waves = directory.join("waves.vcd");
-        for (target, said) in [("icarus", "PASS "), ("control", "FAIL vector "), ("waves", "PASS ")]
-        {
+        for (target, said) in [("icarus", "PASS "), ("control", "FAIL vector "), ("waves", "PASS ")] {
             let output = self.make(directory, target).output();
             let output = output.map_err(|error| Failure(format!("cannot run make: {error}")))?;
             let text = String::from_utf8_lossy(&output.stdout);
@@ -313,9 +299,7 @@ impl Simulator {
 /// With what it says.
 pub fn yosys_reads(directory: &Path) -> Result<(), Failure> {
     let files = hw_model::rtl::SOURCES.map(|(name, _)| name).join(" ");
-    let script = format!(
-        "read_verilog -sv blysk_pkg.sv {files}; hierarchy -check -top blysk; proc; check -assert"
-    );
+    let script = format!("read_verilog -sv blysk_pkg.sv {files}; hierarchy -check -top blysk; proc; check -assert");
     let output = Command::new("yosys").args(["-q", "-p", &script]).current_dir(directory).output();
     let output = output.map_err(|error| Failure(format!("cannot run yosys: {error}")))?;
     let text = [output.stdout, output.stderr].concat();

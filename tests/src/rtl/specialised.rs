@@ -4,8 +4,8 @@ use std::sync::atomic::AtomicU64;
 
 use hw_model::design::Design;
 use hw_model::presets;
-use sim::scene::Scene;
-use sim::specialise::{Display, demands, reduce, rows};
+use scenes::scene::Scene;
+use scenes::specialise::{Display, demands, reduce, rows};
 
 use super::{Failure, simulators};
 
@@ -15,8 +15,8 @@ use super::{Failure, simulators};
 /// When the scene cannot be read, or no hardware is certified.
 pub fn of_paper(scene: &str) -> Result<Design, Failure> {
     let path = simulators::repository().join("docs/scenes").join(format!("{scene}.json"));
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| Failure(format!("cannot read {}: {error}", path.display())))?;
+    let text =
+        std::fs::read_to_string(&path).map_err(|error| Failure(format!("cannot read {}: {error}", path.display())))?;
     let failure = |error: &dyn std::fmt::Display| Failure(format!("{scene}: {error}"));
     let mut read = |name: &str| std::fs::read_to_string(path.with_file_name(name));
     let scene = Scene::from_json(&text, &mut read).map_err(|error| failure(&error))?;

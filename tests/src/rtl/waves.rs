@@ -23,10 +23,10 @@ use crate::waves::{Signal, Waves};
 /// Cycles that are replayed in Yosys too: blocks without trouble, with stalls, with bubbles and with both.
 const REPLAYED: usize = 300;
 
-/// What was compared.
+/// How much of two dumps was compared.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Compared {
-    /// Rising edges.
+    /// The number of rising edges.
     pub edges: u64,
     /// Values of signals before an edge.
     pub values: u64,
@@ -65,12 +65,7 @@ pub fn compare(emitted: &Emitted<'_>, simulator: &Simulator) -> Result<Compared,
 }
 
 /// The waves of a pipeline with these inputs, a cycle each; the last one has no edge.
-fn write(
-    path: &Path,
-    format: WaveFormat,
-    datapath: &Datapath,
-    inputs: &[Inputs],
-) -> Result<(), Failure> {
+fn write(path: &Path, format: WaveFormat, datapath: &Datapath, inputs: &[Inputs]) -> Result<(), Failure> {
     let written = || -> std::io::Result<()> {
         let mut writer = WaveWriter::new(format, File::create(path)?, "blysk", datapath)?;
         let mut pipeline = Pipeline::new(datapath);
@@ -114,9 +109,7 @@ impl Dump {
 
     fn inputs(&self, datapath: &Datapath) -> Result<Vec<Inputs>, Failure> {
         let x_format = datapath.formats().input;
-        let known = |name: &str, edge| {
-            self.word(name, edge)?.ok_or_else(|| Failure(format!("{name} is unknown")))
-        };
+        let known = |name: &str, edge| self.word(name, edge)?.ok_or_else(|| Failure(format!("{name} is unknown")));
         (0..=self.waves.edges.len())
             .map(|edge| {
                 Ok(Inputs {
@@ -135,10 +128,9 @@ impl Dump {
         if picoseconds(model) != picoseconds(&self.waves) {
             return failed("the edges of the two dumps are at different times");
         }
-        let mut names: Vec<(String, String)> =
-            ["in_ready_o", "out_valid_o", "intensity_o", "status_o"]
-                .map(|port| (port.to_owned(), port.to_owned()))
-                .to_vec();
+        let mut names: Vec<(String, String)> = ["in_ready_o", "out_valid_o", "intensity_o", "status_o"]
+            .map(|port| (port.to_owned(), port.to_owned()))
+            .to_vec();
         // Waves have a scope for each rank, whatever part of the pipeline a register belongs to, and the RTL's names.
         for probe in probes(datapath) {
             if probe.path != FETCH_STATUS {

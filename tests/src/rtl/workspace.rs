@@ -9,14 +9,14 @@ use vectors::{Bundle, OutputSet, Strategy, rtl};
 use super::simulators::{fresh, repository};
 use super::{Failure, failed};
 
-/// What is emitted.
+/// A directory of RTL, testbench and vectors that was emitted.
 #[derive(Debug)]
 pub struct Emitted<'a> {
-    /// The design.
+    /// The design that was emitted.
     pub design: &'a Design,
-    /// Its directory.
+    /// The path of the directory.
     pub directory: PathBuf,
-    /// Vectors in it.
+    /// The number of vectors in it.
     pub vectors: u64,
     /// The vector that is wrong in the negative control.
     pub control: u64,
@@ -26,12 +26,7 @@ pub struct Emitted<'a> {
 ///
 /// # Errors
 /// When it cannot be written.
-pub fn emit<'a>(
-    design: &'a Design,
-    name: &str,
-    strategy: Strategy,
-    count: u64,
-) -> Result<Emitted<'a>, Failure> {
+pub fn emit<'a>(design: &'a Design, name: &str, strategy: Strategy, count: u64) -> Result<Emitted<'a>, Failure> {
     let directory = fresh(name)?;
     let command = format!("make rtl, {name}");
     let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {

@@ -73,16 +73,13 @@ fn a_log_that_is_none() {
     bench.refused(CHECK, &["dut.csv:11:", "one too many", "9 vectors"]);
     bench.write("dut.csv", b"intensity\n\xff\n");
     bench.refused(CHECK, &["dut.csv:2:", "UTF-8", "byte 1", "0xff"]);
-    bench.refused(
-        "check --vectors v --log none.csv",
-        &["cannot read the log none.csv", "No such file"],
-    );
+    bench.refused("check --vectors v --log none.csv", &["cannot read the log none.csv", "No such file"]);
     bench.refused("check --vectors v --log .", &["cannot read", "directory"]);
     bench.refused("check --vectors v", &["--log"]);
     bench.refused("check --log dut.csv", &["--vectors"]);
 }
 
-/// A bundle that is not what was written judges nobody.
+/// A bundle that is not what was written judges no answers.
 #[test]
 fn vectors_that_are_none() {
     let bench = bench!();

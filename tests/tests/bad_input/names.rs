@@ -6,10 +6,8 @@ use hw_model::names::RESERVED;
 use super::edited;
 
 /// What is no plain identifier, or has a line, a comment, an expansion or a quote in it.
-const ODD: [&str; 16] = [
-    "", " ", "a b", "1abc", "a\nb", "a$b", "$finish", "a#b", "a\"b", "a'b", "a\\", "\\a ", "a;b",
-    "a/b", "é", "`a",
-];
+const ODD: [&str; 16] =
+    ["", " ", "a b", "1abc", "a\nb", "a$b", "$finish", "a#b", "a\"b", "a'b", "a\\", "\\a ", "a;b", "a/b", "é", "`a"];
 
 #[test]
 fn the_module_under_test_is_a_free_plain_identifier() {

@@ -8,12 +8,9 @@ use super::edited;
 fn which_configuration() {
     let bench = bench!();
     bench.write("in.csv", "n,x\n1,0.5\n");
-    for (command, rest) in [
-        ("report", ""),
-        ("rom", ""),
-        ("vectors", "--out new"),
-        ("simulate", "--stimulus in.csv --out new"),
-    ] {
+    for (command, rest) in
+        [("report", ""), ("rom", ""), ("vectors", "--out new"), ("simulate", "--stimulus in.csv --out new")]
+    {
         let both = format!("{command} --preset paper --config small.json {rest}");
         bench.refused(&both, &["--preset", "--config", "cannot be used with"]);
         bench.refused(&format!("{command} {rest}"), &["--preset", "--config", "required"]);
@@ -54,10 +51,7 @@ fn options_that_are_out_of_range() {
         bench.refused(&format!("vectors --config small.json --out new {option}"), &[said]);
     }
     // 2^33 vectors.
-    bench.refused(
-        "vectors --preset paper --strategy exhaustive --out new",
-        &["8589934592", "4194304", "narrower"],
-    );
+    bench.refused("vectors --preset paper --strategy exhaustive --out new", &["8589934592", "4194304", "narrower"]);
     for (levels, said) in [
         ("--q NaN", "q = NaN"),
         ("--q inf", "q = inf"),
@@ -91,10 +85,7 @@ fn exponents_the_rom_does_not_have() {
         );
     }
     for exponent in ["0.5", "NaN", "many"] {
-        bench.refused(
-            &format!("report --config small.json --curves {exponent} --out new"),
-            &["--curves", exponent],
-        );
+        bench.refused(&format!("report --config small.json --curves {exponent} --out new"), &["--curves", exponent]);
     }
 }
 
@@ -105,9 +96,6 @@ fn an_exhaustive_report_that_would_never_end() {
     for input in ["UQ1.50", "UQ1.62"] {
         let wide = edited("Q2.9", input).replace("\"rational\"", "\"zero\"");
         bench.write("wide.json", wide.replace("1..=8", "1,2"));
-        bench.refused(
-            "report --config wide.json --exhaustive --out new",
-            &["--exhaustive", "narrower input format"],
-        );
+        bench.refused("report --config wide.json --exhaustive --out new", &["--exhaustive", "narrower input format"]);
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use blysk_tests::bench;
 use blysk_tests::cli::SMALL;
 
-/// A directory below a regular file can be made by nobody, root included.
+/// No user, root included, can make a directory below a regular file.
 #[test]
 fn places_that_cannot_be_written() {
     let bench = bench!();
@@ -25,10 +25,7 @@ fn places_that_cannot_be_written() {
             let said = ["/proc/blysk", "cannot"];
             bench.refused(&format!("{command} --out /proc/blysk"), &said);
         }
-        bench.refused_list(
-            &[&command.split(' ').collect::<Vec<_>>()[..], &["--out"]].concat(),
-            &["--out"],
-        );
+        bench.refused_list(&[&command.split(' ').collect::<Vec<_>>()[..], &["--out"]].concat(), &["--out"]);
     }
     assert_eq!(bench.text("file"), "keep me");
 }
@@ -64,9 +61,7 @@ fn targets_that_are_no_files() {
     for files in ["--trace file/x --waves good.vcd", "--waves file/x.fst --trace good"] {
         bench.refused(&format!("{simulate} {files}"), &["directory file"]);
     }
-    for same in
-        ["--trace t --waves t", "--trace t --waves ./t", "--trace ./t --waves directory.vcd/../t"]
-    {
+    for same in ["--trace t --waves t", "--trace t --waves ./t", "--trace ./t --waves directory.vcd/../t"] {
         bench.refused(&format!("{simulate} {same}"), &["--trace", "--waves", "same file"]);
     }
     bench.refused(&format!("{simulate} --out new --trace t"), &["--out", "--trace"]);
@@ -154,10 +149,7 @@ fn waves_of_no_known_format() {
     bench.write("in.csv", "n,x\n1,0.5\n");
     for name in ["w", "w.txt", "w.vcd.gz", ".vcd", "vcd", "w.VCD", "new/w."] {
         let said = ["--waves", name, ".vcd or .fst"];
-        bench.refused(
-            &format!("simulate --config small.json --stimulus in.csv --trace t --waves {name}"),
-            &said,
-        );
+        bench.refused(&format!("simulate --config small.json --stimulus in.csv --trace t --waves {name}"), &said);
     }
 }
 

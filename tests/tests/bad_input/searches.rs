@@ -20,10 +20,7 @@ fn a_design_that_would_be_too_fine_or_never_end() {
 #[test]
 fn a_refinement_of_nothing() {
     let bench = bench!();
-    bench.refused(
-        "refine --preset schlick --out new.json",
-        &["schlick", "no polynomial", "coefficients"],
-    );
+    bench.refused("refine --preset schlick --out new.json", &["schlick", "no polynomial", "coefficients"]);
     bench.refused("refine --config small.json --exponents 9 --out new.json", &["n = 9", "1..=8"]);
     for reach in ["-1", "257"] {
         bench.refused(

@@ -40,14 +40,9 @@ fn inputs_without_end() {
         }
         bench.refused(
             "refine --config wide.json --range polynomial --out new.json",
-            &[
-                "samples are more than the 67108864 (2^26)",
-                "kept in memory",
-                "fraction bits or fewer",
-            ],
+            &["samples are more than the 67108864 (2^26)", "kept in memory", "fraction bits or fewer"],
         );
-        let design =
-            format!("design --exponents 1..=8 --input UQ1.{bits} --output UQ1.8 --error 0.01");
+        let design = format!("design --exponents 1..=8 --input UQ1.{bits} --output UQ1.8 --error 0.01");
         bench.refused(&design, &["17179869184 (2^34)", "fraction bits or fewer", "--exponents"]);
         if bits < 53 {
             let pareto = format!("pareto --input UQ1.{bits} --exponents 1..=8 --no-timing");
@@ -79,8 +74,7 @@ fn vectors_beside_specialised_hardware() {
     let bench = bench!();
     bench.write("scene.json", SCENE);
     for count in ["0", "4194305", "18446744073709551615"] {
-        let command =
-            format!("specialise scene.json --config small.json --out new --count {count}");
+        let command = format!("specialise scene.json --config small.json --out new --count {count}");
         bench.refused(&command, &["vectors", count]);
     }
 }
@@ -140,8 +134,8 @@ fn a_manifest_with_numbers_out_of_range() {
     }
 }
 
-/// Near the top of a line of 60 bits neighbouring x cannot be told apart: what registers take is then not found, and the
-/// page says what their formats hold.
+/// Near the top of a line of 60 bits neighbouring x cannot be told apart: what registers take is then not found, and
+/// the page says what their formats hold.
 #[test]
 fn a_page_about_very_wide_registers() {
     let bench = bench!();

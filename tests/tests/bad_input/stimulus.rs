@@ -55,9 +55,6 @@ fn a_stimulus_with_a_mistake() {
         "simulate --config small.json --stimulus none.csv --out new",
         &["cannot read the stimulus none.csv", "No such file"],
     );
-    bench.refused(
-        "simulate --config small.json --stimulus . --out new",
-        &["cannot read the stimulus .", "directory"],
-    );
+    bench.refused("simulate --config small.json --stimulus . --out new", &["cannot read the stimulus .", "directory"]);
     bench.refused("simulate --config small.json --out new", &["--stimulus"]);
 }

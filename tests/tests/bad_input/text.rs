@@ -37,9 +37,7 @@ fn marks_are_skipped_and_encodings_named() {
         bench.write("file", &good);
         let said = bench.good(command);
         let text = String::from_utf8(good).unwrap();
-        for alike in
-            [format!("\u{feff}{text}"), text.replace('\n', "\r\n"), text.replace('\n', "\r")]
-        {
+        for alike in [format!("\u{feff}{text}"), text.replace('\n', "\r\n"), text.replace('\n', "\r")] {
             bench.write("file", alike);
             assert_eq!(bench.good(command), said, "{command}");
         }
@@ -68,10 +66,7 @@ fn devices_and_streams_without_end_are_refused() {
     for (command, _) in readers(&bench) {
         let command = command.replace(" file", " /dev/zero");
         if command.ends_with("mesh.json") {
-            bench.write(
-                "mesh.json",
-                bench.text("mesh.json").replace(": \"file\"", ": \"/dev/zero\""),
-            );
+            bench.write("mesh.json", bench.text("mesh.json").replace(": \"file\"", ": \"/dev/zero\""));
         }
         limited(&bench, &command, "/dev/zero", &["/dev/zero:1:", "byte of 0"]);
     }
@@ -88,8 +83,7 @@ fn devices_and_streams_without_end_are_refused() {
 
 #[cfg(target_os = "linux")]
 fn limited(bench: &Bench, command: &str, input: &str, said: &[&str]) {
-    let (status, stderr) =
-        shell(bench, &format!("ulimit -v 1000000; exec \"$0\" {command}"), input);
+    let (status, stderr) = shell(bench, &format!("ulimit -v 1000000; exec \"$0\" {command}"), input);
     assert_eq!(status, Some(2), "{command}: {stderr}");
     assert!(said.iter().all(|said| stderr.contains(said)), "{command}: {stderr}");
 }

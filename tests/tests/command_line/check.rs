@@ -112,11 +112,8 @@ fn the_first_wrong_register_is_named() {
     }
     log.spoil(50, "stage3.t3");
     log.lines.reverse();
-    let said = fails(
-        &bench,
-        &log,
-        &["FAIL vector 20:", "11 of 64", "10 depart first at stage2", "1 depart first at stage3"],
-    );
+    let said =
+        fails(&bench, &log, &["FAIL vector 20:", "11 of 64", "10 depart first at stage2", "1 depart first at stage3"]);
     let first = format!("departs first at stage2.t2: got {}", log.lines[63 - 20][3]);
     assert!(said.contains(&first), "{said}");
     assert!(!said.contains("stage1") && !said.contains("Columns of"), "{said}");
@@ -175,9 +172,7 @@ fn missing_answers_fail() {
 fn unknown_values_fail() {
     let bench = bench!();
     let right = right(&bench, "small.json").spelt(|field| field[2..].to_owned());
-    for (text, column) in
-        [("xxx", "intensity"), ("0X0", "intensity"), ("Z", "status"), ("0x", "stage1.t1")]
-    {
+    for (text, column) in [("xxx", "intensity"), ("0X0", "intensity"), ("Z", "status"), ("0x", "stage1.t1")] {
         let mut log = right.clone();
         *log.field(3, column) = text.to_owned();
         let said = format!("{column}: got {text} (unknown bits), expected");
@@ -188,7 +183,7 @@ fn unknown_values_fail() {
     fails(&bench, &log, &["FAIL vector 0:", "got 0xxxx (unknown bits)"]);
 }
 
-/// Nobody listens, and the exit status says it all the same.
+/// Standard output is closed, and the exit status gives the verdict all the same.
 #[test]
 fn a_closed_pipe_does_not_hide_a_failure() {
     let bench = bench!();

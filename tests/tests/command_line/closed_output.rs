@@ -67,10 +67,7 @@ fn a_failed_verdict_is_one_though_nobody_reads_it() {
     let bench = bench!();
     long(&bench);
     let _proved = bench.good("certify --exponents 1..=600 --method hermite --out proved.json");
-    bench.write(
-        "damaged.json",
-        bench.text("proved.json").replacen("\"upper\": 0.00", "\"upper\": 0.01", 1),
-    );
+    bench.write("damaged.json", bench.text("proved.json").replacen("\"upper\": 0.00", "\"upper\": 0.01", 1));
     let pareto = bench.good("pareto --exponents 1..=8 --input UQ1.10 --no-timing --format csv");
     bench.write("pareto.csv", pareto.replace(",f64,", ",f16,"));
     logs(&bench);
@@ -109,9 +106,6 @@ fn a_failed_verdict_is_one_though_nobody_reads_it() {
 fn files_are_written_though_nobody_reads_the_table() {
     let bench = bench!();
     long(&bench);
-    assert_eq!(
-        status_behind_head(&bench, "rom --config long.json --format json --out roms", false),
-        0
-    );
+    assert_eq!(status_behind_head(&bench, "rom --config long.json --format json --out roms", false), 0);
     assert_eq!(bench.text("roms/rom.csv").lines().count(), 1201);
 }

@@ -10,17 +10,12 @@ const COLUMNS: &str = "method,n,a,b,c,d,k1,k2,k3";
 fn seventeen_digits_give_the_same_number() {
     let bench = bench!();
     let mut compared = 0;
-    for (method, q, g) in [
-        ("hermite", 0.5, 1.0 / 18.0),
-        ("three_point", 0.6, 0.1),
-        ("tangent", 0.4, 0.05),
-        ("quadratic", 0.5, 0.01),
-    ] {
-        for (list, exponents) in [("1..=4", vec![1.0, 2.0, 3.0, 4.0]), ("2.5,1e6", vec![2.5, 1e6])]
-        {
-            let text = bench.good(&format!(
-                "coefficients --method {method} --exponents {list} --q {q} --g {g} --format csv"
-            ));
+    for (method, q, g) in
+        [("hermite", 0.5, 1.0 / 18.0), ("three_point", 0.6, 0.1), ("tangent", 0.4, 0.05), ("quadratic", 0.5, 0.01)]
+    {
+        for (list, exponents) in [("1..=4", vec![1.0, 2.0, 3.0, 4.0]), ("2.5,1e6", vec![2.5, 1e6])] {
+            let text =
+                bench.good(&format!("coefficients --method {method} --exponents {list} --q {q} --g {g} --format csv"));
             assert_eq!(text.lines().next(), Some(COLUMNS));
             let rows = csv_rows(&text);
             assert_eq!(rows.len(), exponents.len(), "{text}");
@@ -44,8 +39,7 @@ fn seventeen_digits_give_the_same_number() {
 fn a_ratio_has_its_two_under_a_and_b() {
     let bench = bench!();
     for method in ["rational", "schlick"] {
-        let text = bench
-            .good(&format!("coefficients --method {method} --exponents 1.5,64,1e15 --format csv"));
+        let text = bench.good(&format!("coefficients --method {method} --exponents 1.5,64,1e15 --format csv"));
         let rows = csv_rows(&text);
         assert_eq!(rows.len(), 3);
         for row in rows {
@@ -64,9 +58,7 @@ fn a_ratio_has_its_two_under_a_and_b() {
 #[test]
 fn the_composite_is_its_two_parts() {
     let bench = bench!();
-    let of = |method: &str| {
-        bench.good(&format!("coefficients --method {method} --exponents 3,64 --format csv"))
-    };
+    let of = |method: &str| bench.good(&format!("coefficients --method {method} --exponents 3,64 --format csv"));
     let (composite, hermite, rational) = (of("composite"), of("hermite"), of("rational"));
     let lines = |text: &str| text.lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
     let (hermite, rational) = (lines(&hermite), lines(&rational));
@@ -77,9 +69,8 @@ fn the_composite_is_its_two_parts() {
 #[test]
 fn json_and_csv_say_the_same() {
     let bench = bench!();
-    let print = |format: &str| {
-        bench.good(&format!("coefficients --method schlick --exponents 2.5,64 --format {format}"))
-    };
+    let print =
+        |format: &str| bench.good(&format!("coefficients --method schlick --exponents 2.5,64 --format {format}"));
     let json: Vec<serde_json::Value> = serde_json::from_str(&print("json")).unwrap();
     let csv = csv_rows(&print("csv"));
     assert_eq!((json.len(), csv.len()), (2, 2));
@@ -100,8 +91,7 @@ fn the_table_has_every_digit_of_n() {
     let bench = bench!();
     let list = "2.123456789,100001,1000001.5,1e9,1e15";
     let table = bench.good(&format!("coefficients --method tangent --exponents {list}"));
-    let shown: Vec<&str> =
-        table.lines().skip(1).map(|line| line.split_whitespace().nth(1).unwrap()).collect();
+    let shown: Vec<&str> = table.lines().skip(1).map(|line| line.split_whitespace().nth(1).unwrap()).collect();
     assert_eq!(shown.join(","), list, "{table}");
 }
 

@@ -10,7 +10,7 @@ use hw_model::datapath::Signals;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::highlight::phong;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 
 const ASKED: [(&str, f64); 10] = [
     ("--exponents 1..=12 --input UQ1.10 --output UQ1.10 --error 0.0067 --range all", 0.0067),
@@ -75,26 +75,19 @@ fn the_error_is_kept_at_every_x() {
     }
 }
 
-/// What a register holds after the front end; of a coefficient also both segments' in the fetched word.
+/// What a register holds after the front end; of a coefficient and of a hand-over those of every segment in the fetched
+/// word.
 fn held(register: &str, passage: &[Signals]) -> Vec<i64> {
-    let row = |name| passage[1].row.get(name);
     let fetched = |name| passage[0].row.get(name);
-    let one = match register {
-        "u" => passage[1].v,
-        "t1" => passage[2].t1,
-        "t2" => passage[3].t2,
-        "c3" => return vec![fetched(FieldName::C3), fetched(FieldName::C3Outer)],
-        "c2" => return vec![fetched(FieldName::C2), fetched(FieldName::C2Outer)],
-        "c1" => return vec![fetched(FieldName::C1), fetched(FieldName::C1Outer)],
-        "c0" => return vec![fetched(FieldName::C0), fetched(FieldName::C0Outer)],
-        "tail_a" => row(FieldName::TailA),
-        "tail_b" => row(FieldName::TailB),
-        "divisor" => passage[2].division.divisor,
-        "cut" => row(FieldName::Cut),
-        "hand_over" => row(FieldName::HandOver),
-        other => panic!("{other}"),
-    };
-    vec![one]
+    let named = if register == "u" { Register::V } else { Register::named(register).unwrap() };
+    match named {
+        Register::V => vec![passage[1].v],
+        Register::T(stage) => vec![passage[stage + 1].t[stage - 1]],
+        Register::Divisor => vec![passage[2].division.divisor],
+        Register::C(_, power) => (0..8).map(|segment| fetched(Register::C(segment, power))).collect(),
+        Register::HandOver(_) => (1..8).map(|segment| fetched(Register::HandOver(segment))).collect(),
+        field => vec![passage[1].row.get(field)],
+    }
 }
 
 /// Where a witness is to be looked at: its row, or an address without a word.
@@ -173,34 +166,33 @@ fn every_witness_testifies() {
     assert!(errors > 15 && overflows > 15, "{errors} errors, {overflows} overflows");
 }
 
-/// t3, whose last place is the output's, and the shifts, which are counts: their first bits are needed.
+/// The last stage's result, whose last place is the output's, and the shifts, which are counts: their first bits are
+/// needed.
 fn follow(design: &Design, rows: &[BTreeMap<String, String>]) {
-    let formats = design.datapath().formats();
-    let expected: Vec<(&str, QFormat, &str)> = [
-        ("t3", formats.polynomial.as_ref().map(|f| f.t3), "output"),
-        ("shift", formats.shift, ""),
-        ("shift_outer", formats.shift_outer, ""),
-    ]
-    .into_iter()
-    .filter_map(|(name, format, place)| Some((name, format?, place)))
-    .collect();
+    let datapath = design.datapath();
+    let last =
+        datapath.formats().polynomial.as_ref().map(|formats| (Register::T(formats.degree()), formats.last(), "output"));
+    let shifts = (0..datapath.segment_count()).filter_map(|segment| {
+        let register = Register::Shift(segment);
+        Some((register, design.rom().layout().field(register)?.format, ""))
+    });
+    let expected: Vec<(Register, QFormat, &str)> = last.into_iter().chain(shifts).collect();
     assert_eq!(rows.len(), 2 * expected.len(), "{rows:?}");
     for (pair, (register, format, place)) in rows.chunks(2).zip(expected) {
         let [last, first] = pair else { panic!("two for each") };
-        assert_eq!((last["register"].as_str(), last["asked_by"].as_str()), (register, place));
-        assert_eq!((first["register"].as_str(), &first["format"]), (register, &format.to_string()));
+        let name = register.name();
+        assert_eq!((last["register"].as_str(), last["asked_by"].as_str()), (name, place));
+        assert_eq!((first["register"].as_str(), &first["format"]), (name, &format.to_string()));
         if first["n"].is_empty() && first["overflows"].is_empty() {
             // All rows have a 0 there, or the range that was proved is wider than what is taken.
-            assert!(register == "t3" || format.width() == 1, "{first:?}");
+            assert!(matches!(register, Register::T(_)) || format.width() == 1, "{first:?}");
             continue;
         }
         let (address, x) = asked_of(design, first);
-        let passage = design.datapath().passage(address, x);
-        let row = |name| passage[0].row.get(name);
+        let passage = datapath.passage(address, x);
         let bits = match register {
-            "t3" => passage[4].t3,
-            "shift" => row(FieldName::Shift),
-            _ => row(FieldName::ShiftOuter),
+            Register::T(stage) => passage[stage + 1].t[stage - 1],
+            shift => passage[0].row.get(shift),
         };
         let less: QFormat = first["in_format"].parse().unwrap();
         assert_eq!(bits as f64, number(first, "bits"), "{first:?}");
@@ -237,8 +229,5 @@ fn what_cannot_be_had_is_refused() {
     );
     bench.refused(&format!("{design} --output Q1.10 --error 0.01"), &["`output`", "unsigned"]);
     bench.refused(&format!("{design} --output UQ1.8 --error 2"), &["--error", "at most 1"]);
-    bench.refused(
-        &format!("{design} --output UQ1.8 --error 0.01 --range 1.5"),
-        &["--range", "epicentre"],
-    );
+    bench.refused(&format!("{design} --output UQ1.8 --error 0.01 --range 1.5"), &["--range", "epicentre"]);
 }

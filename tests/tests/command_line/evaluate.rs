@@ -60,6 +60,8 @@ fn a_stream_of_lines_has_the_answers_of_the_vectors() {
                 assert!((ours - theirs).abs() <= 1e-15 * theirs, "{answer:?} {row:?}");
                 let (ours, theirs) = (number(answer, "error_ulp"), number(row, "error_ulp"));
                 assert!((ours - theirs).abs() < 1e-6, "{answer:?} {row:?}");
+            } else {
+                assert_eq!((&*answer["reference"], &*answer["error_ulp"]), ("", ""), "{answer:?}");
             }
         }
         // Words as those of the memory files, comments and all.
@@ -77,8 +79,7 @@ fn every_register_of_every_rank_is_the_one_of_the_vectors() {
     let mut compared = 0;
     for row in rows.iter().filter(|row| !row["n"].is_empty()).step_by(29) {
         let (n, x) = (&row["n"], &row["x_bits"]);
-        let said =
-            bench.good(&format!("evaluate --config small.json --n {n} --x-bits={x} --ranks"));
+        let said = bench.good(&format!("evaluate --config small.json --n {n} --x-bits={x} --ranks"));
         let table = said.split_once("\n\n").expect("answer and ranks").1;
         for line in table.lines().skip(1) {
             let fields: Vec<&str> = line.split_whitespace().collect();
@@ -165,7 +166,37 @@ fn questions_come_from_everywhere() {
     assert_eq!(bench.good("evaluate --config small.json asked"), plain);
 }
 
-/// Without end: it stops when nobody reads any more.
+/// More than one piece of input, in one go and as a pipe gives it: every line as it would be on its own.
+#[test]
+fn many_questions_have_the_answers_of_each() {
+    let bench = bench!();
+    let mut asked = "n,x\n".to_owned();
+    for line in 0_u32..20_000 {
+        // Every so often a line that is not read the short way, or asks nothing.
+        let space = if line % 97 == 0 { " " } else { "" };
+        let x = f64::from(line * 7919 % 20_011) / 20_011.0;
+        writeln!(asked, "{},{space}{x:.6}", 1 + line % 9).unwrap();
+        if line % 1000 == 0 {
+            asked.push_str("# a comment\n\n");
+        }
+    }
+    bench.write("asked", &asked);
+    let answers = bench.good("evaluate --config small.json asked");
+    assert_eq!(answers.lines().count(), 20_001);
+    let questions = asked.lines().filter(|line| line.contains(',')).skip(1);
+    for (line, answer) in questions.zip(answers.lines().skip(1)).step_by(1999) {
+        bench.write("one", format!("n,x\n{line}\n"));
+        let one = bench.good("evaluate --config small.json one");
+        assert_eq!(one.lines().nth(1), Some(answer), "{line}");
+    }
+    let script = "{ head -c 1000 asked; sleep 0.1; tail -c +1001 asked; } | \"$0\" evaluate --config small.json -";
+    let mut shell = Command::new("bash");
+    let shell = shell.args(["-c", script, env!("CARGO_BIN_EXE_blysk-under-test")]);
+    let output = shell.current_dir(bench.path("")).output().expect("a shell");
+    assert_eq!(String::from_utf8(output.stdout).unwrap(), answers);
+}
+
+/// A stream of questions without end stops when the reader of the answers is gone.
 #[test]
 fn questions_without_end_end_with_their_reader() {
     let bench = bench!();

@@ -22,6 +22,7 @@ mod report_against_brute_force;
 mod rom;
 mod rom_image;
 mod rtl;
+mod simulate;
 mod specialise;
 mod stability;
 mod streams;

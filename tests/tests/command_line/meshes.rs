@@ -42,10 +42,8 @@ fn what_exporters_write_is_one_square() {
     let square = picture(&bench, mesh("quad.obj"));
     let l = picture(&bench, mesh("L_quads.obj"));
     assert!(square.0 > l.0 && l.0 > 100.0, "{} {}", square.0, l.0);
-    let mut names: Vec<String> = fs::read_dir(data())
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<String> =
+        fs::read_dir(data()).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     assert_eq!(names.len(), 26, "{names:?}");
     for name in names {

@@ -40,9 +40,7 @@ fn tables_fit_a_terminal() {
         commands.push(format!("report {which} --bound 1"));
         commands.push(format!("stability {which} --samples 50 --out s"));
     }
-    for method in
-        ["hermite", "three_point", "tangent", "quadratic", "rational", "composite", "schlick"]
-    {
+    for method in ["hermite", "three_point", "tangent", "quadratic", "rational", "composite", "schlick"] {
         commands.push(format!("coefficients --method {method} --exponents 1,2.5,114,1e6,1e15"));
     }
     for preset in &presets {
@@ -77,10 +75,7 @@ fn tables_fit_a_terminal() {
 fn long_texts_are_folded() {
     let bench = bench!();
     let odd: Vec<String> = (1..120).step_by(2).map(|n| n.to_string()).collect();
-    let long = CONFIGURATIONS[0]
-        .1
-        .replace("few bits", &"many words ".repeat(30))
-        .replace("1..=8", &odd.join(","));
+    let long = CONFIGURATIONS[0].1.replace("few bits", &"many words ".repeat(30)).replace("1..=8", &odd.join(","));
     bench.write("long.json", long);
     bench.write("in.csv", "n,x\n1,0.5\n");
     for command in ["report --bound 1", "rom", "vectors --count 64 --out v"] {
@@ -134,18 +129,14 @@ fn a_closed_pipe_is_no_error() {
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!((output.status.code(), stderr.as_str()), (Some(0), ""), "{command}");
     }
-    for file in [
-        "rom/rom.csv",
-        "report/error_vs_n.csv",
-        "run/trace.csv",
-        "vectors/manifest.json",
-        "stability/seams.json",
-    ] {
+    for file in
+        ["rom/rom.csv", "report/error_vs_n.csv", "run/trace.csv", "vectors/manifest.json", "stability/seams.json"]
+    {
         assert!(!bench.read(file).is_empty(), "{file}");
     }
 }
 
-/// A closed pipe does not hide a verdict that nobody could miss in the exit status.
+/// A closed pipe does not change the verdict in the exit status.
 #[test]
 fn the_first_line_of_a_long_table_can_be_had_alone() {
     use std::io::{BufRead, BufReader};

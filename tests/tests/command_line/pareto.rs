@@ -28,68 +28,68 @@ macro_rules! values {
             let real = |value: f64| -> $real { value as $real };
             let (t, exponent) = (real(x), real(f64::from(n)));
             let s = 1.0 - t;
-            let value =
-                match family {
-                    "powf" => t.powf(exponent),
-                    // The square and multiply of a textbook, from the last bit.
-                    "powers" => {
-                        (0..32)
-                            .fold((1.0, t), |(power, square), bit| {
-                                let next = if n >> bit & 1 == 1 { power * square } else { power };
-                                (next, square * square)
-                            })
-                            .0
-                    }
-                    "schlick" => t / (exponent - exponent * t + t),
-                    linear if linear.starts_with("linear_") => {
-                        let intervals: u32 = linear["linear_".len()..].parse().expect("a number");
-                        let steps = f64::from(intervals);
-                        let low = (x * steps).floor().min(steps - 1.0);
-                        let at = |i: f64| real(phong(f64::from(n), i / steps));
-                        at(low) + (t * real(steps) - real(low)) * (at(low + 1.0) - at(low))
-                    }
-                    "minimax_2" => {
-                        let fitted = minimax::segments(f64::from(n), 2, minimax::Range::Balanced);
-                        let fitted = fitted.expect("a fit");
-                        let k = fitted.first.centred;
-                        let first = 1.0 - s * (real(k.k1) - s * (real(k.k2) - s * real(k.k3)));
-                        match (fitted.further.first(), fitted.ends.as_slice()) {
-                            (_, [end, ..]) if s <= real(*end) => first.max(0.0),
-                            (Some(second), [.., end]) if s <= real(*end) => {
-                                let ([c0, c1, c2, c3], v) =
-                                    (second.c.map(real), s - real(second.start));
-                                (c0 - v * (c1 - v * (c2 - v * c3))).max(0.0)
-                            }
-                            _ => 0.0,
+            let value = match family {
+                "powf" => t.powf(exponent),
+                // The square and multiply of a textbook, from the last bit.
+                "powers" => {
+                    (0..32)
+                        .fold((1.0, t), |(power, square), bit| {
+                            let next = if n >> bit & 1 == 1 { power * square } else { power };
+                            (next, square * square)
+                        })
+                        .0
+                }
+                "schlick" => t / (exponent - exponent * t + t),
+                linear if linear.starts_with("linear_") => {
+                    let intervals: u32 = linear["linear_".len()..].parse().expect("a number");
+                    let steps = f64::from(intervals);
+                    let low = (x * steps).floor().min(steps - 1.0);
+                    let at = |i: f64| real(phong(f64::from(n), i / steps));
+                    at(low) + (t * real(steps) - real(low)) * (at(low + 1.0) - at(low))
+                }
+                "minimax_2" => {
+                    let fitted = minimax::segments(f64::from(n), 3, 2, minimax::Range::Balanced);
+                    let fitted = fitted.expect("a fit");
+                    let [_, k1, k2, k3, _] = fitted.segments[0].c;
+                    let first = 1.0 - s * (real(k1) - s * (real(k2) - s * real(k3)));
+                    match (fitted.segments.get(1), fitted.ends.as_slice()) {
+                        (_, [end, ..]) if s <= real(*end) => first.max(0.0),
+                        (Some(second), [.., end]) if s <= real(*end) => {
+                            let ([c0, c1, c2, c3, _], v) = (second.c.map(real), s - real(second.start));
+                            (c0 - v * (c1 - v * (c2 - v * c3))).max(0.0)
                         }
+                        _ => 0.0,
                     }
-                    method => {
-                        let method: Method = method.parse().expect("a method");
-                        let Fit { epicentre, curve } =
-                            fit(method, f64::from(n), Levels::default()).expect("a fit");
-                        let cubic = |cubic: &hw_model::highlight::Cubic| {
-                            let c = cubic.centred;
-                            let value: $real =
-                                1.0 - s * (real(c.k1) - s * (real(c.k2) - s * real(c.k3)));
-                            value.max(0.0)
-                        };
-                        let ratio = |r: &hw_model::highlight::Rational| {
-                            let below = real(r.at_one) + real(r.b) * s;
-                            if below > t { t / below } else { 1.0 }
-                        };
-                        match &curve {
-                            Curve::Rational(rational) => ratio(rational),
-                            Curve::Composite { epicentre: above, tail } => {
-                                if s <= real(epicentre.s) { cubic(above) } else { ratio(tail) }
-                            }
-                            Curve::Cubic(above) => {
-                                let minimum = above.centred.first_minimum().unwrap_or(1.0);
-                                let cut = real(minimum.clamp(epicentre.s, 1.0));
-                                if s <= cut { cubic(above) } else { 0.0 }
+                }
+                method => {
+                    let method: Method = method.parse().expect("a method");
+                    let Fit { epicentre, curve } = fit(method, f64::from(n), Levels::default()).expect("a fit");
+                    let cubic = |cubic: &hw_model::highlight::Cubic| {
+                        let c = cubic.centred;
+                        let value: $real = 1.0 - s * (real(c.k1) - s * (real(c.k2) - s * real(c.k3)));
+                        value.max(0.0)
+                    };
+                    let ratio = |r: &hw_model::highlight::Rational| {
+                        let below = real(r.at_one) + real(r.b) * s;
+                        if below > t { t / below } else { 1.0 }
+                    };
+                    match &curve {
+                        Curve::Rational(rational) => ratio(rational),
+                        Curve::Composite { epicentre: above, tail } => {
+                            if s <= real(epicentre.s) {
+                                cubic(above)
+                            } else {
+                                ratio(tail)
                             }
                         }
+                        Curve::Cubic(above) => {
+                            let minimum = above.centred.first_minimum().unwrap_or(1.0);
+                            let cut = real(minimum.clamp(epicentre.s, 1.0));
+                            if s <= cut { cubic(above) } else { 0.0 }
+                        }
                     }
-                };
+                }
+            };
             f64::from(value)
         }
     };
@@ -211,8 +211,7 @@ fn without_times_the_same_bytes_and_times_stand_apart() {
     let names = |directory: &str| -> Vec<String> {
         bench.tree(directory).into_keys().map(|name| name.display().to_string()).collect()
     };
-    let times: Vec<String> =
-        names("timed").into_iter().filter(|name| !names("first").contains(name)).collect();
+    let times: Vec<String> = names("timed").into_iter().filter(|name| !names("first").contains(name)).collect();
     let expected = [
         "pareto_mixed_epicentre.png",
         "pareto_mixed_epicentre.svg",
@@ -237,8 +236,7 @@ fn times_are_ordered_and_json_has_both_tables() {
     let said = bench.good(&format!("pareto {options} --out both"));
     assert!(said.contains("left out: powers"), "{said}");
     let json: Value = serde_json::from_str(&bench.text("both/pareto.json")).expect("JSON");
-    let (table, times) =
-        (csv_rows(&bench.text("both/pareto.csv")), csv_rows(&bench.text("both/pareto_timing.csv")));
+    let (table, times) = (csv_rows(&bench.text("both/pareto.csv")), csv_rows(&bench.text("both/pareto_timing.csv")));
     assert_eq!(json["timing"]["seed"], 7);
     for (csv, json) in [(&table, &json["contenders"]), (&times, &json["timing"]["rows"])] {
         let json = json.as_array().expect("rows");
@@ -259,9 +257,8 @@ fn times_are_ordered_and_json_has_both_tables() {
         let hardware = row["contender"].starts_with("preset ");
         assert_eq!(row["mixed_median"].is_empty(), hardware);
         for way in ["block", "mixed"].into_iter().take(if hardware { 1 } else { 2 }) {
-            let [least, lower, median, upper] =
-                ["least", "lower_quartile", "median", "upper_quartile"]
-                    .map(|part| number(row, &format!("{way}_{part}")));
+            let [least, lower, median, upper] = ["least", "lower_quartile", "median", "upper_quartile"]
+                .map(|part| number(row, &format!("{way}_{part}")));
             assert!(0.0 < least && least <= lower && lower <= median && median <= upper);
         }
     }
@@ -305,8 +302,7 @@ fn the_table_that_is_kept_holds() {
     let bench = bench!();
     let kept = fs::read_to_string(documents("pareto.csv")).expect("docs/pareto.csv");
     bench.write("pareto.csv", &kept);
-    let again =
-        "`make pareto` measures docs/pareto.csv and docs/PARETO.md again; read the difference";
+    let again = "`make pareto` measures docs/pareto.csv and docs/PARETO.md again; read the difference";
     let run = bench.run("pareto --check pareto.csv --every 16381");
     assert_eq!(run.status, 0, "{again}: {}", run.stdout);
     // A sample cannot tell everything, and says so.
@@ -325,9 +321,7 @@ fn the_table_that_is_kept_holds() {
                 numbers.into_iter().any(|cell| (cell / number(row, column) - 1.0).abs() < 6e-4)
             };
             wanted.iter().all(|cell| cells.contains(cell))
-                && ["epicentre_worst", "epicentre_rms", "whole_worst", "whole_rms"]
-                    .iter()
-                    .all(shown)
+                && ["epicentre_worst", "epicentre_rms", "whole_worst", "whole_rms"].iter().all(shown)
         });
         assert!(found, "docs/PARETO.md has no line for {row:?}: {again}");
     }
@@ -350,8 +344,7 @@ fn every_column_of_a_table_is_checked() {
     let held = bench.good(check);
     assert!(!held.contains("not checked"), "{held}");
     let lines: Vec<&str> = kept.lines().collect();
-    let preset =
-        lines.iter().position(|line| line.starts_with("preset compact,")).expect("a preset");
+    let preset = lines.iter().position(|line| line.starts_with("preset compact,")).expect("a preset");
     let mut altered = 0;
     for line in [1, preset] {
         for column in 0..columns - 1 {
@@ -403,9 +396,6 @@ fn what_cannot_be_compared_is_refused() {
     refused("--check small.json", &["pareto.csv"]);
     bench.write("semicolon.csv", "contender;kind\nschlick f32;f32\n");
     refused("--check semicolon.csv", &["semicolon.csv:1:", "separated by `;`"]);
-    refused(
-        "--no-timing --synth semicolon.csv --out new",
-        &["semicolon.csv:1:", "separated by `;`"],
-    );
+    refused("--no-timing --synth semicolon.csv --out new", &["semicolon.csv:1:", "separated by `;`"]);
     refused("--check pareto.csv --out new", &["--check", "--out"]);
 }

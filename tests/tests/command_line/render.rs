@@ -23,15 +23,8 @@ fn rendered(bench: &Bench, name: &str, more: &[&str]) -> String {
     good(bench, &[&["render", path.to_str().unwrap()], more].concat())
 }
 
-const FILES: [&str; 7] = [
-    "difference.png",
-    "methods.png",
-    "pipeline.png",
-    "reference.png",
-    "render.csv",
-    "render.json",
-    "render.sha256",
-];
+const FILES: [&str; 7] =
+    ["difference.png", "methods.png", "pipeline.png", "reference.png", "render.csv", "render.json", "render.sha256"];
 
 struct Png {
     width: usize,
@@ -80,8 +73,7 @@ fn figures_are_those_of_the_pictures() {
     for (name, preset) in [("one_material", "paper"), ("low_exponents", "compact")] {
         let more = ["--preset", preset, "--size", "120x90", "--out", "r", "--clock-mhz", "50"];
         let text = rendered(&bench, name, &more);
-        let [one, other] =
-            ["pipeline", "reference"].map(|n| png(&bench.read(&format!("r/{n}.png"))));
+        let [one, other] = ["pipeline", "reference"].map(|n| png(&bench.read(&format!("r/{n}.png"))));
         let figures: Value = serde_json::from_str(&bench.text("r/render.json")).unwrap();
         let of = |pointer: &str| figures.pointer(pointer).unwrap().as_f64().unwrap();
         let greatest = f64::from((1_u32 << figures["display_bits"].as_u64().unwrap()) - 1);
@@ -108,8 +100,7 @@ fn figures_are_those_of_the_pictures() {
         assert!((of("/needed/frames_per_second") * of("/needed/cycles") - 50e6).abs() < 1.0);
         assert!(text.contains("every bit is the same"), "{text}");
         // The same figures on standard output.
-        let json =
-            rendered(&bench, name, &[&more[..4], &more[6..], &["--format", "json"]].concat());
+        let json = rendered(&bench, name, &[&more[..4], &more[6..], &["--format", "json"]].concat());
         assert_eq!(json, bench.text("r/render.json"));
         let csv = rendered(&bench, name, &[&more[..4], &["--format", "csv"]].concat());
         assert_eq!(csv, bench.text("r/render.csv"));
@@ -145,10 +136,7 @@ fn the_highlight_of_a_ball_is_round_and_alone() {
         }
         assert_eq!(at(0, 0), 0);
         // From behind, the ball has no highlight at all.
-        bench.write(
-            "behind.json",
-            alone.replace("\"towards\": [0, 0, 1]", "\"towards\": [0, 0, -1]"),
-        );
+        bench.write("behind.json", alone.replace("\"towards\": [0, 0, 1]", "\"towards\": [0, 0, -1]"));
         let _said = good(&bench, &["render", "behind.json", "--preset", preset, "--out", "r"]);
         assert!(png(&bench.read("r/pipeline.png")).samples.iter().all(|&code| code == 0));
     }
@@ -201,20 +189,14 @@ fn the_pictures_of_the_documents_are_current() {
         (
             "many_materials",
             "480x300",
-            &[
-                ("pipeline.png", "many_materials_paper.png"),
-                ("difference.png", "many_materials_difference.png"),
-            ],
+            &[("pipeline.png", "many_materials_paper.png"), ("difference.png", "many_materials_difference.png")],
         ),
     ] {
         let more = ["--preset", "paper", "--size", size, "--out", name];
         let _said = rendered(&bench, name, &more);
         for (made, kept) in pictures {
             let kept_bytes = std::fs::read(documents.join(kept)).unwrap();
-            assert!(
-                bench.read(&format!("{name}/{made}")) == kept_bytes,
-                "{kept} is stale: make pictures"
-            );
+            assert!(bench.read(&format!("{name}/{made}")) == kept_bytes, "{kept} is stale: make pictures");
         }
     }
 }

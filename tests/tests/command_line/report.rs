@@ -23,9 +23,7 @@ fn the_exit_status_is_the_verdict() {
     let holds = bench.good("report --config small.json --bound 0.02");
     assert!(holds.contains("2.0000000 % holds for every exponent"), "{holds}");
     for format in ["csv", "json"] {
-        let rows = |bound| {
-            bench.good(&format!("report --config small.json --bound {bound} --format {format}"))
-        };
+        let rows = |bound| bench.good(&format!("report --config small.json --bound {bound} --format {format}"));
         let (both, one) = (rows("0.2"), rows("0.02"));
         assert!(!both.contains("false") && both.contains("true"), "{both}");
         // On all of [0, 1] 2 % do not hold.
@@ -47,10 +45,7 @@ fn both_ranges_have_a_verdict() {
     let verdicts: Vec<&str> = held.lines().filter(|line| line.starts_with("bound on ")).collect();
     assert_eq!(verdicts.len(), 2, "{held}");
     assert!(verdicts[0].starts_with("bound on the epicentre ") && verdicts[0].contains("holds"));
-    assert!(
-        verdicts[1].starts_with("bound on all of [0, 1] ")
-            && verdicts[1].contains("DOES NOT HOLD for ")
-    );
+    assert!(verdicts[1].starts_with("bound on all of [0, 1] ") && verdicts[1].contains("DOES NOT HOLD for "));
     let run = bench.run("report --config small.json --bound 0.02 --range all");
     assert_eq!((run.status, run.stdout), (1, held));
     let both = bench.good("report --config small.json --bound 0.2 --range all");
@@ -74,8 +69,7 @@ fn the_bound_itself_still_holds() {
     let worst = rows.iter().map(|row| number(row, "total_abs")).fold(0.0, f64::max);
     assert!(worst > 1e-4, "{worst}");
     let _held = bench.good(&format!("report --config small.json --bound {worst}"));
-    let run = bench
-        .run(&format!("report --config small.json --bound {} --format csv", worst.next_down()));
+    let run = bench.run(&format!("report --config small.json --bound {} --format csv", worst.next_down()));
     assert_eq!(run.status, 1);
     for row in csv_rows(&run.stdout) {
         let holds = number(&row, "total_abs") < worst;
@@ -87,8 +81,7 @@ fn the_bound_itself_still_holds() {
 fn the_files_of_a_report() {
     let bench = bench!();
     let screen = bench.good("report --config small.json --bound 0.02 --out deep/results");
-    let names: Vec<String> =
-        bench.tree("deep/results").into_keys().map(|name| name.display().to_string()).collect();
+    let names: Vec<String> = bench.tree("deep/results").into_keys().map(|name| name.display().to_string()).collect();
     let wanted = [
         "curves.png",
         "curves.svg",
@@ -155,8 +148,7 @@ fn same_rows(csv: &[BTreeMap<String, String>], json: &[Value]) {
 fn a_report_is_repeatable() {
     let bench = bench!();
     for (place, more) in [("a", ""), ("b", ""), ("c", "--curves 2")] {
-        let _screen =
-            bench.good(&format!("report --config small.json --bound 1 --out {place} {more}"));
+        let _screen = bench.good(&format!("report --config small.json --bound 1 --out {place} {more}"));
     }
     let (a, b, c) = (bench.tree("a"), bench.tree("b"), bench.tree("c"));
     assert!(a == b);
@@ -193,9 +185,7 @@ fn every_preset_has_the_methods_own_error() {
         for wanted in known.iter().filter(|row| row.method == method) {
             let key = (preset.to_owned(), wanted.exponent.to_string());
             let Some(row) = of.get(&key) else { continue };
-            for (column, reference) in
-                [("approximation_abs", "epi_abs"), ("approximation_rel", "epi_rel")]
-            {
+            for (column, reference) in [("approximation_abs", "epi_abs"), ("approximation_rel", "epi_rel")] {
                 let (found, wanted) = (number(row, column), wanted.value(reference).unwrap());
                 let error = (found - wanted).abs();
                 assert!(error <= (DIGITS * wanted).max(NOISE), "{key:?}: {found:e}, {wanted:e}");
@@ -208,7 +198,7 @@ fn every_preset_has_the_methods_own_error() {
     // 20 exponents of the table are integers up to 256.
     assert_eq!(compared, 5 * 20 * 2, "errors compared");
 
-    // The two figures everyone quotes.
+    // The two figures that the paper is quoted for.
     for (n, printed) in [("64", "0.00506510790"), ("256", "0.00542237003")] {
         let found = number(of[&("paper".to_owned(), n.to_owned())], "approximation_abs");
         assert_eq!(format!("{found:.11}"), printed, "n = {n}");

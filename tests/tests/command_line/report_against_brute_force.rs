@@ -68,23 +68,16 @@ fn an_exhaustive_report_is_every_x() {
     let mut compared = 0;
     for (file, json) in CONFIGURATIONS {
         let design = Design::new(Config::from_json(json).unwrap()).unwrap();
-        let text = bench.good(&format!(
-            "report --config {file} --exhaustive --bound 1 --format csv --out {file}.out"
-        ));
+        let text = bench.good(&format!("report --config {file} --exhaustive --bound 1 --format csv --out {file}.out"));
         let rows = csv_rows(&text);
         assert_eq!(rows.len(), design.rom().depth());
         for (address, row) in (0..).zip(&rows) {
             let n = number(row, "n");
             let (epicentre, all) = every_x(&design, address);
             let tolerance = if n.fract() == 0.0 { 0.0 } else { POWF };
-            for (peak, error, place) in
-                [(epicentre, "total_abs", "total_x"), (all, "full_range_abs", "full_range_x")]
-            {
+            for (peak, error, place) in [(epicentre, "total_abs", "total_x"), (all, "full_range_abs", "full_range_x")] {
                 let found = Peak(number(row, error), number(row, place));
-                assert!(
-                    (found.0 - peak.0).abs() <= tolerance,
-                    "{file} n = {n}: {found:?} {peak:?}"
-                );
+                assert!((found.0 - peak.0).abs() <= tolerance, "{file} n = {n}: {found:?} {peak:?}");
                 assert_eq!(found.1, peak.1, "{file} n = {n}: {place}");
                 compared += 1;
             }
@@ -107,14 +100,12 @@ fn a_sampled_error_is_never_above_the_exhaustive_one() {
     let bench = bench!();
     let mut fewer = 0;
     for (file, json) in CONFIGURATIONS {
-        let wide = ["Q2.9", "UQ1.10", "UQ0.9"]
-            .iter()
-            .fold(json.to_owned(), |json, narrow| json.replace(narrow, "UQ1.14"));
+        let wide =
+            ["Q2.9", "UQ1.10", "UQ0.9"].iter().fold(json.to_owned(), |json, narrow| json.replace(narrow, "UQ1.14"));
         assert_ne!(wide, json);
         bench.write(file, wide);
         let run = |more: &str, out: &str| {
-            let command =
-                format!("report --config {file} --bound 1 --format csv --out {out} {more}");
+            let command = format!("report --config {file} --bound 1 --format csv --out {out} {more}");
             let rows = csv_rows(&bench.good(&command));
             let json = bench.read(&format!("{out}/error_vs_n.json"));
             let json: serde_json::Value = serde_json::from_slice(&json).unwrap();

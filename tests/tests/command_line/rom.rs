@@ -72,8 +72,7 @@ fn every_word_unpacks_to_its_row() {
                 assert_eq!(model.get(name), found, "{} n = {}", preset.name, address + 1);
                 compared += 1;
             }
-            let shown =
-                table.lines().any(|line| line.split_whitespace().last() == Some(&row["word"]));
+            let shown = table.lines().any(|line| line.split_whitespace().last() == Some(&row["word"]));
             assert!(shown, "the table for people has the word of n = {}", address + 1);
         }
         let width = fields.iter().map(|field| field.msb + 1).max().unwrap();
@@ -96,7 +95,6 @@ fn some_exponents_and_files() {
     assert_eq!((parsed.len(), &parsed[6]["n"]), (8, &serde_json::json!(7.0)));
 
     let some = bench.good("rom --config small.json --exponents 2,7 --format csv");
-    let wanted: Vec<&str> =
-        all.lines().enumerate().filter(|(line, _)| [0, 2, 7].contains(line)).map(|l| l.1).collect();
+    let wanted: Vec<&str> = all.lines().enumerate().filter(|(line, _)| [0, 2, 7].contains(line)).map(|l| l.1).collect();
     assert_eq!(some.lines().collect::<Vec<_>>(), wanted);
 }

@@ -12,23 +12,11 @@ use proptest::sample::select;
 
 /// Pieces of names that mean something to Verilog, make, YAML or a shell.
 const PIECES: [&str; 30] = [
-    "a", "Z", "0", "_", "-", " ", "\n", "\r", "\t", "$", "$(x)", "#", "'", "\"", "\\", "`x", ";",
-    "//", "*/", ":", "%s", "é", "\u{301}", "\u{2028}", "\u{202e}", "\u{7f}", "~", "&", "{", "!",
+    "a", "Z", "0", "_", "-", " ", "\n", "\r", "\t", "$", "$(x)", "#", "'", "\"", "\\", "`x", ";", "//", "*/", ":",
+    "%s", "é", "\u{301}", "\u{2028}", "\u{202e}", "\u{7f}", "~", "&", "{", "!",
 ];
-const WORDS: [&str; 12] = [
-    "always",
-    "logic",
-    "bool",
-    "std",
-    "TOP",
-    "dut",
-    "clk",
-    "stimulus",
-    "blysk",
-    "blysk_tb",
-    "blysk_rom",
-    "complete",
-];
+const WORDS: [&str; 12] =
+    ["always", "logic", "bool", "std", "TOP", "dut", "clk", "stimulus", "blysk", "blysk_tb", "blysk_rom", "complete"];
 
 fn make(directory: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new("make");
@@ -63,17 +51,9 @@ fn taken(configuration: &str, name: &str, place: &str, dut: &str) -> bool {
     let hint = run.stdout.split("try: ").nth(1).expect("a hint").trim();
     fs::write(bench.path(place).join("dut.sv"), own(dut)).unwrap();
     let hint = format!("{} ARGUMENTS=+plain", hint.replace("DUT=FILE", "DUT=dut.sv"));
-    let shell = Command::new("bash")
-        .args(["-c", &hint])
-        .current_dir(bench.path(""))
-        .env_remove("MAKEFLAGS")
-        .output()
-        .unwrap();
-    assert!(
-        shell.status.success() && text(&shell).contains("PASS 9 vectors"),
-        "{run:#?} {}",
-        text(&shell)
-    );
+    let shell =
+        Command::new("bash").args(["-c", &hint]).current_dir(bench.path("")).env_remove("MAKEFLAGS").output().unwrap();
+    assert!(shell.status.success() && text(&shell).contains("PASS 9 vectors"), "{run:#?} {}", text(&shell));
     yaml(&bench.path(place).join("blysk.core"));
     true
 }
@@ -82,11 +62,7 @@ fn taken(configuration: &str, name: &str, place: &str, dut: &str) -> bool {
 fn yaml(path: &Path) {
     let python = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/venv/bin/python");
     let script = "import sys, yaml; yaml.safe_load(open(sys.argv[1], encoding='utf-8'))['name']";
-    let output = Command::new(python)
-        .args(["-c", script])
-        .arg(path)
-        .output()
-        .expect("scripts/setup was run");
+    let output = Command::new(python).args(["-c", script]).arg(path).output().expect("scripts/setup was run");
     assert!(output.status.success(), "{}", text(&output));
 }
 
@@ -131,8 +107,7 @@ fn the_makefile_finds_the_verdict() {
     let bench = emitted("blysk");
     let control = fs::read_to_string(bench.path("rtl/manifest.json")).unwrap();
     let control: serde_json::Value = serde_json::from_str(&control).unwrap();
-    let found =
-        format!("FAIL vector {}: x: clamp.intensity is 1", control["negative_control"]["vector"]);
+    let found = format!("FAIL vector {}: x: clamp.intensity is 1", control["negative_control"]["vector"]);
     let own = "blysk_tb.sv:464: $finish called at 71605000 (1ps)";
     for (target, said, good) in [
         ("icarus", vec!["PASS 9 vectors"], true),

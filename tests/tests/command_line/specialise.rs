@@ -73,8 +73,7 @@ fn the_close_up_keeps_one_row_and_no_tail() {
 fn synthesis_counts_both() {
     let bench = bench!();
     let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/examples/small.json");
-    let options =
-        ["--config", whole.to_str().unwrap(), "--count", "1", "--synth", "--out", "small"];
+    let options = ["--config", whole.to_str().unwrap(), "--count", "1", "--synth", "--out", "small"];
     let said = specialised(&bench, "low_exponents", &options);
     assert!(said.trim_end().ends_with(", rtl, source_rtl"), "{said}");
     for name in ["LUTs", "flip-flops"] {
@@ -113,8 +112,7 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
     let bench = bench!();
     specialised(&bench, "close_up", &["--preset", "paper", "--out", "small"]);
     let path = scene("close_up");
-    let check =
-        |file: &str| bench.run_list(&["specialise", path.to_str().unwrap(), "--check", file]);
+    let check = |file: &str| bench.run_list(&["specialise", path.to_str().unwrap(), "--check", file]);
     assert_eq!(check("small/certificate.json").status, 0);
     let text = bench.text("small/certificate.json");
     for (wrong, from, to) in [
@@ -143,12 +141,7 @@ fn a_certificate_is_checked_and_a_wrong_one_refused() {
     bench.write("small/configuration.json", honest);
     // Another scene is not the one it was made for.
     let other = scene("one_material");
-    let run = bench.run_list(&[
-        "specialise",
-        other.to_str().unwrap(),
-        "--check",
-        "small/certificate.json",
-    ]);
+    let run = bench.run_list(&["specialise", other.to_str().unwrap(), "--check", "small/certificate.json"]);
     assert!(run.status == 1 && run.stdout.contains("scene: "), "{run:#?}");
 }
 
@@ -178,10 +171,7 @@ fn what_cannot_be_specialised_is_refused() {
     };
     for (rest, said) in [
         (r#""domain": [{"n": 2, "least": 0.9}]"#, "one n and least for each exponent"),
-        (
-            r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 1.5}]"#,
-            "use a number from 0 to 1",
-        ),
+        (r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 1.5}]"#, "use a number from 0 to 1"),
         (r#""domain": [{"n": 2, "least": 0.9}, {"n": 9, "least": 0.1}]"#, "below its cut"),
     ] {
         domain(rest);

@@ -20,11 +20,7 @@ const PARTS: [(&str, &[&str], &[&str]); 5] = [
             "coefficients_three_point_centred",
         ],
     ),
-    (
-        "conditioning",
-        &["conditioning", "conditioning_widths"],
-        &["conditioning_forms", "conditioning_widths"],
-    ),
+    ("conditioning", &["conditioning", "conditioning_widths"], &["conditioning_forms", "conditioning_widths"]),
     ("edges", &["edges", "edges_variants", "edges_words"], &["edges"]),
     ("seams", &["seams", "seams_hand_overs"], &["seams_steps", "seams_image"]),
     ("reference", &["reference", "reference_totals"], &["reference"]),
@@ -55,17 +51,14 @@ fn the_files_of_every_part() {
         own.extend(plots.iter().flat_map(|plot| [format!("{plot}.svg"), format!("{plot}.png")]));
         for name in &own {
             // The same command, alone or with others: the same bytes.
-            assert!(
-                bench.read(&format!("{part}/{name}")) == bench.read(&format!("deep/all/{name}"))
-            );
+            assert!(bench.read(&format!("{part}/{name}")) == bench.read(&format!("deep/all/{name}")));
             assert!(!name.ends_with(".png") || bench.read(&format!("{part}/{name}")).len() > 5000);
         }
         wanted.extend(own);
     }
     wanted.push("stability.sha256".to_owned());
     wanted.sort_unstable();
-    let found: Vec<String> =
-        bench.tree("deep/all").into_keys().map(|name| name.display().to_string()).collect();
+    let found: Vec<String> = bench.tree("deep/all").into_keys().map(|name| name.display().to_string()).collect();
     assert_eq!(found, wanted);
 }
 
@@ -113,10 +106,7 @@ fn digits_are_lost_as_the_reference_table_says() {
         }
         let found = |way: &str| {
             rows.iter().find(|row| {
-                row["method"] == "hermite"
-                    && row["form"] == "centred"
-                    && row["way"] == way
-                    && number(row, "n") == n
+                row["method"] == "hermite" && row["form"] == "centred" && row["way"] == way && number(row, "n") == n
             })
         };
         let Some(naive) = found("naive") else { continue };
@@ -145,11 +135,9 @@ fn digits_are_lost_as_the_reference_table_says() {
 fn seams_are_those_of_the_vectors() {
     let bench = bench!();
     for (file, _) in CONFIGURATIONS {
-        let _summary =
-            bench.good(&format!("vectors --config {file} --strategy exhaustive --out v"));
+        let _summary = bench.good(&format!("vectors --config {file} --strategy exhaustive --out v"));
         let vectors = csv_rows(&bench.text("v/vectors.csv"));
-        let seams =
-            csv_rows(&bench.good(&format!("stability --config {file} --part seams --format csv")));
+        let seams = csv_rows(&bench.good(&format!("stability --config {file} --part seams --format csv")));
         let fraction = if file == "centred.json" { 9 } else { 8 };
         let mut compared = 0;
         for row in &seams {
@@ -208,22 +196,13 @@ fn what_cannot_be_measured_is_refused() {
         let command = format!("stability --config small.json --format {format} --out new");
         bench.refused(&command, &["--part seams"]);
     }
-    bench.refused(
-        "stability --config small.json --exponents 2,9 --out new",
-        &["--exponents 9", "1..=8"],
-    );
-    bench.refused(
-        "stability --part coefficients --exponents 2 --out new",
-        &["--exponents", "edges and seams"],
-    );
+    bench.refused("stability --config small.json --exponents 2,9 --out new", &["--exponents 9", "1..=8"]);
+    bench.refused("stability --part coefficients --exponents 2 --out new", &["--exponents", "edges and seams"]);
     bench.refused("stability --part reference --samples 0", &["--samples", "1..=10000000"]);
     bench.refused("stability --part rounding", &["coefficients", "conditioning", "all"]);
     bench.refused("stability --part reference --out small.json", &["a file is in the way"]);
     bench.write("long.json", blysk_tests::cli::CENTRED.replace("UQ1.10", "UQ1.40"));
-    bench.refused(
-        "stability --config long.json --part seams --out new",
-        &["pairs of neighbouring x", "--exponents"],
-    );
+    bench.refused("stability --config long.json --part seams --out new", &["pairs of neighbouring x", "--exponents"]);
     let alone = bench.good("stability --config long.json --part edges");
     assert!(alone.contains("holds"), "{alone}");
 }

@@ -57,8 +57,7 @@ fn a_bound_that_fails_is_in_the_exit_status_of_a_stream_too() {
     assert!(run.status == 1 && run.stdout.ends_with("}\n"), "{run:#?}");
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let mut command =
-        bench.command(&["certify", "--config", "small.json", "--bound", "1e-9", "--out", "-"]);
+    let mut command = bench.command(&["certify", "--config", "small.json", "--bound", "1e-9", "--out", "-"]);
     let output = command.stdout(writer).stderr(Stdio::piped()).output().unwrap();
     assert_eq!((output.status.code(), output.stderr.len()), (Some(1), 0), "{output:?}");
 }

@@ -33,14 +33,10 @@ fn the_same_command_gives_the_same_bytes() {
     for (file, json) in CONFIGURATIONS {
         let design = design(json);
         for strategy in ["mixed", "corners", "even", "random"] {
-            let command =
-                format!("vectors --config {file} --strategy {strategy} --count 200 --seed 7");
+            let command = format!("vectors --config {file} --strategy {strategy} --count 200 --seed 7");
             let first = bench.good(&format!("{command} --out first"));
             let second = bench.good(&format!("{command} --out deep/second"));
-            assert_eq!(
-                first.lines().skip(1).collect::<String>(),
-                second.lines().skip(1).collect::<String>()
-            );
+            assert_eq!(first.lines().skip(1).collect::<String>(), second.lines().skip(1).collect::<String>());
             let (first, second) = (bench.tree("first"), bench.tree("deep/second"));
             assert_eq!(first.len(), 7);
             assert!(first == second, "{command}");
@@ -57,15 +53,12 @@ fn the_same_command_gives_the_same_bytes() {
 fn another_seed_gives_other_random_vectors_and_the_same_corners() {
     let bench = bench!();
     let vectors = |strategy: &str, seed: u64| {
-        let command = format!(
-            "vectors --config small.json --strategy {strategy} --count 96 --seed {seed} --out v"
-        );
+        let command = format!("vectors --config small.json --strategy {strategy} --count 96 --seed {seed} --out v");
         let _summary = bench.good(&command);
         bench.text("v/vectors.csv")
     };
     for strategy in ["random", "mixed"] {
-        let (first, again, other) =
-            (vectors(strategy, 1), vectors(strategy, 1), vectors(strategy, 2));
+        let (first, again, other) = (vectors(strategy, 1), vectors(strategy, 1), vectors(strategy, 2));
         assert!(first == again && first != other, "{strategy}");
     }
     for strategy in ["corners", "even", "exhaustive"] {
@@ -80,8 +73,7 @@ fn the_exhaustive_ones_are_every_value_of_the_ports() {
     let design = design(DIVIDER);
     let verified = checked(&bench, "all", &design);
     // 4 exponents and at least one address more: 3 bits; x has 9.
-    let cases: HashSet<(u32, i64)> =
-        verified.vectors.iter().map(|row| (row.case.address, row.case.x)).collect();
+    let cases: HashSet<(u32, i64)> = verified.vectors.iter().map(|row| (row.case.address, row.case.x)).collect();
     assert_eq!((cases.len(), verified.vectors.len()), (1 << 12, 1 << 12));
     assert!(cases.iter().all(|(address, x)| *address < 8 && (0..512).contains(x)));
     assert!(summary.contains("4096 vectors, 4 ROM words"), "{summary}");
@@ -93,8 +85,7 @@ fn files_are_replaced_whole() {
     let bench = bench!();
     let _summary = bench.good("vectors --config small.json --count 50 --out v");
     let _summary = bench.good("vectors --config centred.json --count 20 --out v");
-    let names: Vec<String> =
-        bench.tree("v").into_keys().map(|name| name.display().to_string()).collect();
+    let names: Vec<String> = bench.tree("v").into_keys().map(|name| name.display().to_string()).collect();
     assert_eq!(
         names,
         [

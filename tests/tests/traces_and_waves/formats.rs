@@ -15,8 +15,7 @@ use crate::stimulus::patterns;
 pub fn check(bench: &Bench, which: &str, trace: &Trace, design: &Design, place: &str) {
     let _counts = bench.good(&format!("simulate {which} --stimulus in.csv --waves run.fst"));
     let top = &design.config().name;
-    let [vcd, fst] = ["run/waves.vcd", "run.fst"]
-        .map(|file| Waves::read(&bench.path(file), &format!("{top}.clk_i")));
+    let [vcd, fst] = ["run/waves.vcd", "run.fst"].map(|file| Waves::read(&bench.path(file), &format!("{top}.clk_i")));
     against_trace(&vcd, trace, design, place);
     assert!(vcd == fst, "{place}: VCD and FST differ");
 }
@@ -50,8 +49,7 @@ fn flags(waves: &Waves, trace: &Trace, design: &Design, place: &str) {
     assert_eq!(flags.width as usize, datapath.rank_count(), "{place}");
     for cycle in 0..trace.len() {
         let of_rank = |rank| trace.flag(cycle, &format!("{}.valid", datapath.rank_name(rank)));
-        let wanted = (0..datapath.rank_count())
-            .fold(0, |word, rank| word | u64::from(of_rank(rank)) << rank);
+        let wanted = (0..datapath.rank_count()).fold(0, |word, rank| word | u64::from(of_rank(rank)) << rank);
         assert_eq!(flags.word(cycle), Some(wanted), "{place}, cycle {cycle}");
     }
     assert_eq!(flags.last_word(), Some(0), "{place}");
@@ -81,8 +79,7 @@ fn waves_have_no_time_stamp() {
 #[test]
 fn a_long_run_is_the_same_in_both_formats() {
     let bench = bench!();
-    let lines: String =
-        (0..40_000_u32).map(|cycle| format!("{},{}\n", 1 + cycle % 8, cycle * 401 % 512)).collect();
+    let lines: String = (0..40_000_u32).map(|cycle| format!("{},{}\n", 1 + cycle % 8, cycle * 401 % 512)).collect();
     bench.write("in.csv", format!("n,x_bits\n{lines}"));
     let run = "simulate --config small.json --stimulus in.csv --waves";
     let [vcd, fst] = ["w.vcd", "w.fst"].map(|file| {

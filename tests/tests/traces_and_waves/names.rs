@@ -59,9 +59,13 @@ impl Place<'_> {
     /// Whether a line's ranks include this one: `0`, `every`, `last`, `2 to S+1`, `5 up`.
     fn includes(&self, ranks: &str) -> bool {
         let last = self.rank + 1 == self.design.datapath().rank_count();
-        let number = |text: &str| match text.strip_prefix("S+") {
-            Some(more) => self.steps() + more.parse::<usize>().expect("a number"),
-            None => text.parse().expect("a number"),
+        let degree = self.design.datapath().degree();
+        let more = |text: &str| text.parse::<usize>().expect("a number");
+        let number = |text: &str| match (text.split_once('+'), text) {
+            (Some(("S", further)), _) => self.steps() + more(further),
+            (Some(("D", further)), _) => degree + more(further),
+            (_, "D") => degree,
+            _ => more(text),
         };
         match ranks.split_whitespace().collect::<Vec<_>>()[..] {
             ["every"] => true,
@@ -74,19 +78,21 @@ impl Place<'_> {
         }
     }
 
-    /// The line's name for a register called `register` here. In a rank that the line does not include it means nothing.
+    /// The line's name for a register called `register` here. In a rank that the line does not include it means
+    /// nothing.
     fn name(&self, pattern: &str, register: &str) -> String {
         let mut name = pattern.replace("{rank}", &self.design.datapath().rank_name(self.rank));
+        let degree = self.design.datapath().degree();
+        let fields = self.design.rom().layout().fields();
+        let field = fields.iter().position(|field| field.name.name() == register);
         name = name.replace("{field}", register).replace("c{i}", register);
+        name = name.replace("{i}", register.trim_start_matches('c'));
+        name = name.replace("{D}", &degree.to_string());
+        name = name.replace("{f}", &field.map_or_else(String::new, |field| field.to_string()));
         let steps = self.steps();
-        for (text, less) in [
-            ("{r}", 0),
-            ("{r-1}", 1),
-            ("{r-2}", 2),
-            ("{r-3}", 3),
-            ("{r-5}", 5),
-            ("{r-S-3}", steps + 3),
-        ] {
+        for (text, less) in
+            [("{r}", 0), ("{r-1}", 1), ("{r-2}", 2), ("{r-3}", 3), ("{r-D-2}", degree + 2), ("{r-S-3}", steps + 3)]
+        {
             name = name.replace(text, &self.rank.wrapping_sub(less).to_string());
         }
         assert!(!name.contains('{'), "{pattern} leaves {name}");
@@ -96,7 +102,7 @@ impl Place<'_> {
 
 /// Whether a pattern with `{field}` or `c{i}` can mean this register.
 fn can_mean(line: &Line, register: &str) -> bool {
-    let coefficient = ["c0", "c1", "c2", "c3"].contains(&register);
+    let coefficient = ["c0", "c1", "c2", "c3", "c4"].contains(&register);
     match &line.trace {
         pattern if pattern.contains("c{i}") => coefficient,
         pattern if pattern.contains("{field}") => !["x", "status"].contains(&register),
@@ -113,6 +119,12 @@ fn all_designs() -> Vec<(String, Design)> {
     let mut all = designs();
     let short = Design::new(Config::from_json(SHORT_DIVIDER).unwrap()).unwrap();
     all.push(("--config short.json".to_owned(), short));
+    for example in ["parabolas", "quartics"] {
+        let path = format!("{}/../docs/examples/{example}.json", env!("CARGO_MANIFEST_DIR"));
+        let json = std::fs::read_to_string(&path).unwrap();
+        let design = Design::new(Config::from_json(&json).unwrap()).unwrap();
+        all.push((format!("--config {path}"), design));
+    }
     for preset in presets::ALL {
         let design = Design::new(Config::from_json(preset.json).unwrap()).unwrap();
         all.push((format!("--preset {}", preset.name), design));
@@ -132,7 +144,7 @@ fn every_register_stands_in_the_table_once_and_no_line_is_idle() {
         let columns: Vec<&str> = table.lines().next().expect("a header").split(',').collect();
         for probe in probes(design.datapath()) {
             let place = Place { design: &design, rank: probe.rank };
-            let register = probe.register.name;
+            let register = probe.register.name();
             let means = |line: &Line| {
                 place.includes(&line.rank)
                     && can_mean(line, register)
@@ -150,22 +162,18 @@ fn every_register_stands_in_the_table_once_and_no_line_is_idle() {
         }
     }
     assert_eq!(lines[0].trace, "{rank}.valid");
-    let idle: Vec<&str> = (1..lines.len())
-        .filter(|at| !used.contains_key(at))
-        .map(|at| lines[at].trace.as_str())
-        .collect();
+    let idle: Vec<&str> =
+        (1..lines.len()).filter(|at| !used.contains_key(at)).map(|at| lines[at].trace.as_str()).collect();
     assert_eq!(idle, [""; 0], "lines that no register is in");
 }
 
 fn check(line: &Line, place: &Place<'_>, probe: &Probe, columns: &[&str], which: &str) {
-    let register = probe.register.name;
+    let register = probe.register.name();
     assert_eq!(place.name(&line.wave, register), probe.wave, "{which}");
     assert_eq!(place.name(&line.rtl, register), probe.path, "{which}");
     let column = match line.vectors.as_str() {
         "=" => Some(probe.name.as_str()),
-        "= with two segments" => {
-            place.design.datapath().has_two_segments().then_some(probe.name.as_str())
-        }
+        "= with several segments" => (place.design.datapath().segment_count() > 1).then_some(probe.name.as_str()),
         "" => None,
         other => Some(other),
     };

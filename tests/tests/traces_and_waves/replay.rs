@@ -34,8 +34,7 @@ fn yosys_agrees_to_the_end_of_the_waves() {
     for (which, design) in designs().into_iter().take(3) {
         let _rtl = bench.good(&format!("rtl {which} --count 1 --out rtl"));
         let exponents = design.rom().exponents().as_slice();
-        let mut stimuli: Vec<String> =
-            ENDS.iter().map(|text| of_the_rom(text, exponents)).collect();
+        let mut stimuli: Vec<String> = ENDS.iter().map(|text| of_the_rom(text, exponents)).collect();
         stimuli.push(patterns(&design).pop().expect("a pattern").1.to_csv());
         for stimulus in stimuli {
             bench.write("in.csv", &stimulus);

@@ -30,9 +30,7 @@ fn columns(trace: &Trace, design: &Design) {
     for (rank, name) in rank_names(design).iter().enumerate() {
         wanted.push(format!("{name}.valid"));
         let registers = design.datapath().registers(rank);
-        wanted.extend(
-            registers.iter().map(|register| design.datapath().register_name(rank, register)),
-        );
+        wanted.extend(registers.iter().map(|register| design.datapath().register_name(rank, register)));
     }
     assert_eq!(trace.header, wanted);
 }
@@ -53,9 +51,7 @@ fn against_a_model(trace: &Trace, design: &Design, stimulus: &Stimulus, place: &
     let mut cycle = 0;
     loop {
         let line = stimulus.lines.get(cycle);
-        waiting.extend(
-            line.filter(|line| line.valid).map(|line| (design.rom().address_of(line.n), line.x)),
-        );
+        waiting.extend(line.filter(|line| line.valid).map(|line| (design.rom().address_of(line.n), line.x)));
         if line.is_none() && waiting.is_empty() && ranks.iter().all(|rank| !rank.valid) {
             break;
         }
@@ -80,7 +76,7 @@ fn against_a_model(trace: &Trace, design: &Design, stimulus: &Stimulus, place: &
             let held = rank.held.map(|(address, x)| datapath.passage(address, x)[index]);
             for register in datapath.registers(index) {
                 let column = datapath.register_name(index, &register);
-                let wanted = held.as_ref().map(|held: &Signals| (register.bits)(held));
+                let wanted = held.as_ref().map(|held: &Signals| register.bits(held));
                 assert_eq!(trace.get(cycle, &column), wanted, "{}", at(&column));
             }
         }

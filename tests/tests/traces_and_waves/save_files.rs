@@ -83,7 +83,7 @@ fn a_save_file_comes_with_the_testbench() {
         // Picoseconds: half a cycle behind the last edge.
         assert_eq!(waves.end, waves.edges.last().expect("edges") + 5_000, "{which}");
     }
-    // Somebody else's module has ports.
+    // Of a user's own module only the ports are known.
     let _rtl = bench.good("rtl --config small.json --count 20 --dut mine --out rtl");
     let file = SaveFile::read(&bench.text("rtl/waves.gtkw"));
     assert_eq!(file.groups.len(), 1);

@@ -9,7 +9,7 @@ use hw_model::design::Design;
 pub struct Line {
     /// n, or 0 for one that the ROM does not have.
     pub n: f64,
-    /// Bits of x.
+    /// The bits of x, in the input format.
     pub x: i64,
     pub valid: bool,
     pub ready: bool,
@@ -68,8 +68,7 @@ pub fn patterns(design: &Design) -> Vec<(&'static str, Stimulus)> {
         .iter()
         .map(|&(name, bubbles, stalls, resets)| {
             let mut at = |of: u64| of > 0 && random.once_in(of);
-            let flags: Vec<_> =
-                (0..LINES).map(|_| (!at(bubbles), !at(stalls), at(resets))).collect();
+            let flags: Vec<_> = (0..LINES).map(|_| (!at(bubbles), !at(stalls), at(resets))).collect();
             (name, with_inputs(design, &flags, &mut random))
         })
         .collect();
@@ -83,8 +82,7 @@ pub fn patterns(design: &Design) -> Vec<(&'static str, Stimulus)> {
 fn with_inputs(design: &Design, flags: &[(bool, bool, bool)], random: &mut Random) -> Stimulus {
     let exponents = design.rom().exponents().as_slice();
     let input = design.config().input;
-    let ends =
-        [0, 1, input.one() - 1, input.one(), input.one() + 1, input.min_bits(), input.max_bits()];
+    let ends = [0, 1, input.one() - 1, input.one(), input.one() + 1, input.min_bits(), input.max_bits()];
     let lines = flags.iter().map(|&(valid, ready, reset)| {
         let n = match random.next() as usize % (exponents.len() + 1) {
             index if index < exponents.len() => exponents[index],

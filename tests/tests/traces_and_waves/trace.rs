@@ -17,8 +17,7 @@ impl Trace {
             header.iter().enumerate().map(|(place, name)| (name.clone(), place)).collect();
         assert_eq!(columns.len(), header.len(), "a column is named twice");
         let cell = |cell: &str| (cell != "x").then(|| cell.parse().expect("an integer or x"));
-        let cycles: Vec<Vec<_>> =
-            reader.records().map(|line| line.unwrap().iter().map(cell).collect()).collect();
+        let cycles: Vec<Vec<_>> = reader.records().map(|line| line.unwrap().iter().map(cell).collect()).collect();
         assert!(!cycles.is_empty(), "an empty trace shows nothing");
         Self { columns, header, cycles }
     }

@@ -60,7 +60,7 @@ pub fn signals(design: &Design) -> Vec<Signal> {
         add(format!("{scope}.valid_q"), &format!("{scope}.valid"), 1);
         for register in datapath.registers(rank) {
             let column = datapath.register_name(rank, &register);
-            add(format!("{scope}.{}_q", register.name), &column, register.format.width());
+            add(format!("{scope}.{}_q", register.name()), &column, register.format.width());
         }
     }
     // A wire in the RTL, most of whose bits are never unknown.

@@ -15,7 +15,7 @@ pub enum AnswersError {
     /// The bundle is not what was written.
     #[error(transparent)]
     Bundle(#[from] VerifyError),
-    /// The bundle's table.
+    /// `vectors.csv` of the bundle cannot be read.
     #[error(transparent)]
     Table(#[from] TableError),
     /// The log cannot be read, or is no text.
@@ -24,7 +24,7 @@ pub enum AnswersError {
     /// A line of the log, or the line of column names.
     #[error("{}:{line}: {problem}", path.display())]
     Line {
-        /// The log.
+        /// The path of the log.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
@@ -34,11 +34,11 @@ pub enum AnswersError {
     /// A field of the log.
     #[error("{}:{line}: column `{column}`: {problem}", path.display())]
     Field {
-        /// The log.
+        /// The path of the log.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
-        /// The column.
+        /// The name of the column, as in the log's header.
         column: String,
         /// What is wrong, and what would be right.
         problem: String,

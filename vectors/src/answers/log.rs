@@ -1,4 +1,4 @@
-//! Reading the log.
+//! Reads a log of answers, CSV with a line for each vector, into bits by column.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -45,18 +45,13 @@ pub(super) struct Answer {
 
 impl Log {
     /// Opens a log of `count` answers; `known` is what it may have, in the order of comparison.
-    pub(super) fn open(
-        path: &Path,
-        known: Vec<Column>,
-        count: usize,
-    ) -> Result<Self, AnswersError> {
+    pub(super) fn open(path: &Path, known: Vec<Column>, count: usize) -> Result<Self, AnswersError> {
         let mut records = Records::new(text_file::open(path, ANSWER_LOG)?);
         let header = records.next_record().map_err(|error| refused(path, error))?;
         let line = header.as_ref().map_or(1, |header| header.line);
         let names = header.map_or_else(Vec::new, |header| header.fields);
         let (index, columns) = places(&names, known).map_err(|problem| {
-            let empty =
-                if names.is_empty() { "the file is empty, or has comments only: " } else { "" };
+            let empty = if names.is_empty() { "the file is empty, or has comments only: " } else { "" };
             AnswersError::Line { path: path.to_owned(), line, problem: format!("{empty}{problem}") }
         })?;
         let (path, lines) = (path.to_owned(), vec![0; count]);
@@ -88,9 +83,7 @@ impl Log {
         let field = |place: usize| fields.get(place).copied().unwrap_or_default();
         let index = match *index {
             None => next_index(*answered, lines.len()).map_err(in_line)?,
-            Some(place) => {
-                named_index(field(place), lines).map_err(|problem| in_field(INDEX, problem))?
-            }
+            Some(place) => named_index(field(place), lines).map_err(|problem| in_field(INDEX, problem))?,
         };
         let mut values = Vec::with_capacity(columns.len());
         for placed in columns {
@@ -108,9 +101,7 @@ impl Log {
 fn refused(path: &Path, error: RecordError) -> AnswersError {
     match error {
         RecordError::Text(problem) => TextError::new(path, &ANSWER_LOG, problem).into(),
-        RecordError::Line { line, problem } => {
-            AnswersError::Line { path: path.to_owned(), line, problem }
-        }
+        RecordError::Line { line, problem } => AnswersError::Line { path: path.to_owned(), line, problem },
     }
 }
 
@@ -123,9 +114,9 @@ fn next_index(next: usize, count: usize) -> Result<usize, String> {
 /// `lines` has the line that answers each vector.
 fn named_index(text: &str, lines: &[u64]) -> Result<usize, String> {
     let last = lines.len().saturating_sub(1);
-    let index: usize = text.parse().map_err(|_| {
-        format!("{text:?} is no index; write the vector's number in decimal, from 0 to {last}")
-    })?;
+    let index: usize = text
+        .parse()
+        .map_err(|_| format!("{text:?} is no index; write the vector's number in decimal, from 0 to {last}"))?;
     match lines.get(index) {
         None => Err(format!("{index} is out of range; the vectors are 0 to {last}")),
         Some(0) => Ok(index),
@@ -173,28 +164,21 @@ impl Placed {
                 digits
             }
             (None, Some(true)) => {
-                return Err(format!(
-                    "{text:?} has no 0x, which the numbers above it have; {alike}"
-                ));
+                return Err(format!("{text:?} has no 0x, which the numbers above it have; {alike}"));
             }
             // Too long for a word with an unknown digit.
             (Some(_), Some(false)) if text.len() > digits(format) => {
-                return Err(format!(
-                    "{text:?} has 0x, which the numbers above it have not; {alike}"
-                ));
+                return Err(format!("{text:?} has 0x, which the numbers above it have not; {alike}"));
             }
             _ => text,
         };
         match value(digits) {
-            None => {
-                Err(format!("{text:?} is not a hex number; write digits such as 7fff or 0x7fff"))
-            }
+            None => Err(format!("{text:?} is not a hex number; write digits such as 7fff or 0x7fff")),
             Some(Value::Unknown(_)) => Ok(Got::Unknown(text.to_owned())),
             Some(Value::Known(word)) => {
                 self.prefixed.get_or_insert(false);
                 let word = u64::try_from(word).ok().filter(|word| word >> format.width() == 0);
-                let wide =
-                    || format!("{text} does not fit the {} bits of {format}", format.width());
+                let wide = || format!("{text} does not fit the {} bits of {format}", format.width());
                 word.map(|word| Got::Known(format.from_word(word))).ok_or_else(wide)
             }
         }

@@ -9,7 +9,7 @@ use crate::table::TableRow;
 /// What a log says of a port or register.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Got {
-    /// Its bits.
+    /// The bits that the log has, in the register's width.
     Known(i64),
     /// Some bits are `x` or `z`; the number as written.
     Unknown(String),
@@ -20,7 +20,7 @@ pub enum Got {
 pub struct Field {
     /// Its name, as the log's column.
     pub name: String,
-    /// Its format.
+    /// The format in which got and expected bits are read.
     pub format: QFormat,
     /// The bits by the bundle.
     pub expected: i64,
@@ -45,7 +45,7 @@ impl Field {
 /// A vector that is not answered as it should be.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Failure {
-    /// The vector.
+    /// The vector that failed, with its expected outputs.
     pub vector: TableRow,
     /// The line of the log, counted from 1; none where no line answers the vector.
     pub line: Option<u64>,
@@ -140,12 +140,7 @@ impl Tally {
         }
     }
 
-    pub(super) fn verdict<'a>(
-        self,
-        vectors: u64,
-        ranks: impl Iterator<Item = &'a str>,
-        input: QFormat,
-    ) -> Verdict {
+    pub(super) fn verdict<'a>(self, vectors: u64, ranks: impl Iterator<Item = &'a str>, input: QFormat) -> Verdict {
         let departures = ranks.zip(self.departures).filter(|(_, count)| *count > 0);
         Verdict {
             vectors,

@@ -46,8 +46,8 @@ impl Workers for OneByOne {
 
 /// What became of a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Verdict {
-    /// The fault.
+pub struct FaultFate {
+    /// The fault that is judged.
     pub fault: Fault,
     /// The first vector that kills it; none when no input does.
     pub killed_by: Option<u64>,
@@ -57,7 +57,7 @@ pub struct Verdict {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Compact {
     samples: Vec<Sample>,
-    verdicts: Vec<Verdict>,
+    verdicts: Vec<FaultFate>,
     lower_bound: u64,
     inputs: u64,
 }
@@ -78,7 +78,7 @@ impl Compact {
         set
     }
 
-    /// The vectors.
+    /// The vectors of the smallest set found, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples
@@ -86,7 +86,7 @@ impl Compact {
 
     /// Every fault: first those of each row, then those of the pipeline.
     #[must_use]
-    pub fn verdicts(&self) -> &[Verdict] {
+    pub fn verdicts(&self) -> &[FaultFate] {
         &self.verdicts
     }
 
@@ -112,12 +112,14 @@ impl Compact {
         for (bit, fault) in cover.faults.iter().enumerate() {
             let kills = |(_, mask): &(i64, Mask)| mask >> bit & 1 == 1;
             let killed_by = cover.chosen.iter().position(kills).map(|at| first + at as u64);
-            self.verdicts.push(Verdict { fault: *fault, killed_by });
+            self.verdicts.push(FaultFate { fault: *fault, killed_by });
         }
-        self.samples.extend(cover.chosen.iter().map(|&(x, _)| Sample {
-            case: Case::at(design.rom(), cover.address, x),
-            kind: Kind::Target,
-        }));
+        self.samples.extend(
+            cover
+                .chosen
+                .iter()
+                .map(|&(x, _)| Sample { case: Case::at(design.rom(), cover.address, x), kind: Kind::Target }),
+        );
     }
 
     fn add_pipeline(&mut self, design: &Design, workers: &impl Workers) {
@@ -130,18 +132,15 @@ impl Compact {
         let found = hunt.exhaust(workers);
         self.extend(&mut hunt, &found);
         let verdicts = faults.iter().zip(&hunt.killed_by);
-        self.verdicts.extend(verdicts.map(|(&fault, &killed_by)| Verdict { fault, killed_by }));
+        self.verdicts.extend(verdicts.map(|(&fault, &killed_by)| FaultFate { fault, killed_by }));
     }
 
     /// Adds candidates while they kill what survives, each time the one that kills most.
     fn extend(&mut self, hunt: &mut Hunt<'_>, candidates: &[Sample]) {
         let survivors = hunt.survivors();
-        let kills: Vec<Vec<usize>> =
-            candidates.iter().map(|sample| hunt.kills(&survivors, sample.case)).collect();
+        let kills: Vec<Vec<usize>> = candidates.iter().map(|sample| hunt.kills(&survivors, sample.case)).collect();
         loop {
-            let gain = |kills: &Vec<usize>| {
-                kills.iter().filter(|&&fault| hunt.killed_by[fault].is_none()).count()
-            };
+            let gain = |kills: &Vec<usize>| kills.iter().filter(|&&fault| hunt.killed_by[fault].is_none()).count();
             let gains = kills.iter().map(gain).enumerate();
             // Of equal ones the first.
             let Some((best, 1..)) = gains.rev().max_by_key(|&(_, gain)| gain) else { return };
@@ -167,8 +166,7 @@ impl RowCover {
         let found: Vec<(i64, Mask)> = exhaust(&mut row, Mask::MAX, front_end).collect();
         let masks: Vec<Mask> = found.iter().map(|(_, mask)| *mask).collect();
         let all = masks.iter().fold(0, |set, mask| set | mask);
-        let mut chosen: Vec<(i64, Mask)> =
-            fewest(&masks, all).into_iter().map(|index| found[index]).collect();
+        let mut chosen: Vec<(i64, Mask)> = fewest(&masks, all).into_iter().map(|index| found[index]).collect();
         chosen.sort_unstable();
         let faults = row.faults().iter().copied().map(Fault::Field).collect();
         Self { address, faults, chosen }
@@ -177,11 +175,7 @@ impl RowCover {
 
 /// Every sort of x in a row, told apart by what it kills of `wanted`: the least x of each sort, increasing.
 /// Beyond [0, 1] there are no more sorts: above 1 the front end takes x as 1, and below 0 no row is asked.
-pub fn exhaust(
-    row: &mut RowFaults<'_>,
-    wanted: Mask,
-    front_end: FrontEnd,
-) -> impl Iterator<Item = (i64, Mask)> {
+pub fn exhaust(row: &mut RowFaults<'_>, wanted: Mask, front_end: FrontEnd) -> impl Iterator<Item = (i64, Mask)> {
     let (mut seen, mut masks) = (HashSet::from([0]), Vec::new());
     chunks(0..=front_end.greatest).flat_map(move |xs| {
         row.killed(&xs, wanted, &mut masks);
@@ -241,9 +235,7 @@ impl Hunt<'_> {
                 let faulty = &self.faulty[fault];
                 let suspects = screen.suspects(faulty, &row, &xs);
                 let killer = suspects.into_iter().map(|x| Case::at(self.design.rom(), address, x));
-                let killer = killer
-                    .into_iter()
-                    .find(|case| faulty.is_killed(&datapath.passage(case.address, case.x)));
+                let killer = killer.into_iter().find(|case| faulty.is_killed(&datapath.passage(case.address, case.x)));
                 found.extend(killer.map(|case| Sample { case, kind: Kind::Target }));
                 killer.is_none()
             });
@@ -257,7 +249,10 @@ impl Hunt<'_> {
     /// Every x of [0, 1]; every x of the format where a fault looks at x as it was given. Behind the
     /// front end an x beyond [0, 1] is another one with a flag, and the corners have those.
     fn every_x(&self, faults: &[usize]) -> RangeInclusive<i64> {
-        let as_given = |&fault: &usize| matches!(self.faulty[fault].fault(), Fault::Logic(_) if self.faulty[fault].rank() == 1);
+        let as_given = |&fault: &usize| {
+            let faulty = &self.faulty[fault];
+            matches!(faulty.fault(), Fault::Logic(_)) && faulty.rank() == 1
+        };
         let input = self.design.config().input;
         match faults.iter().any(as_given) {
             true => input.min_bits()..=input.max_bits(),

@@ -22,8 +22,7 @@ pub fn fewest(masks: &[Mask], wanted: Mask) -> Vec<usize> {
 fn groups(masks: impl Iterator<Item = Mask>) -> Vec<Mask> {
     let mut groups: Vec<Mask> = Vec::new();
     for mask in masks {
-        let (joined, apart): (Vec<Mask>, Vec<Mask>) =
-            groups.into_iter().partition(|group| group & mask != 0);
+        let (joined, apart): (Vec<Mask>, Vec<Mask>) = groups.into_iter().partition(|group| group & mask != 0);
         groups = apart;
         groups.push(joined.into_iter().fold(mask, |union, group| union | group));
     }
@@ -55,8 +54,7 @@ fn fewest_of_group(masks: &[Mask], wanted: Mask) -> Vec<usize> {
 
 /// The bits of `wanted`, those first that the fewest masks have.
 fn rarest_first(masks: &[Mask], useful: &[usize], wanted: Mask) -> Vec<Mask> {
-    let mut bits: Vec<Mask> =
-        (0..Mask::BITS).map(|place| 1 << place).filter(|bit| wanted & bit != 0).collect();
+    let mut bits: Vec<Mask> = (0..Mask::BITS).map(|place| 1 << place).filter(|bit| wanted & bit != 0).collect();
     bits.sort_by_key(|bit| useful.iter().filter(|&&index| masks[index] & bit != 0).count());
     bits
 }
@@ -114,9 +112,9 @@ mod tests {
         ) {
             // Few bits, so that groups come about.
             let thin = |mask: Mask| if sparse { mask & (mask >> 7) & 0x00ff_1fff } else { mask & 0xffff };
-            let masks: Vec<Mask> = masks.into_iter().map(thin).collect();
+            let masks: Vec<Mask> = masks.into_iter().map(Mask::from).map(thin).collect();
             let all = masks.iter().fold(0, |set, mask| set | mask);
-            for wanted in [all, all & some] {
+            for wanted in [all, all & Mask::from(some)] {
                 let choice = fewest(&masks, wanted);
                 let union = choice.iter().fold(0, |set, &index| set | masks[index]);
                 prop_assert_eq!(union & wanted, wanted);

@@ -1,13 +1,14 @@
 //! What faulty hardware answers: the data path, with what one rank takes in exchanged.
 
 use hw_model::datapath::front_end::{FrontEnd, Region};
+use hw_model::datapath::ranks::HEAD_RANKS;
 use hw_model::datapath::tail::Division;
 use hw_model::datapath::{Datapath, Signals, Status};
 use hw_model::format::QFormat;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 
-use super::fault::{DataRegister, Defect, Fault, Logic, RoundingLine};
+use super::fault::{DATA, Defect, Fault, Logic, place};
 use crate::case::Case;
 use crate::reference::Expected;
 
@@ -18,7 +19,7 @@ pub struct Model<'a> {
     /// The same in the wide lane, where values that do not fit have room until they wrap.
     wide: Datapath,
     /// The computed data registers of each rank.
-    registers: Vec<Vec<(DataRegister, QFormat)>>,
+    registers: Vec<Vec<(Register, QFormat)>>,
 }
 
 /// Hardware with one fault.
@@ -37,11 +38,8 @@ impl<'a> Model<'a> {
     pub fn new(datapath: &'a Datapath) -> Self {
         let of_rank = |rank| {
             let computed = datapath.registers(rank).into_iter().filter(|held| held.computed);
-            let known = computed.filter_map(|held| {
-                let register = DataRegister::ALL.into_iter().find(|r| r.name() == held.name)?;
-                Some((register, held.format))
-            });
-            known.collect()
+            let known = computed.filter(|held| DATA.contains(&held.register));
+            known.map(|held| (held.register, held.format)).collect()
         };
         Self {
             datapath,
@@ -64,18 +62,15 @@ impl<'a> Model<'a> {
             Fault::Field(_) | Fault::Swap(_) => 0,
             Fault::Register(rank, ..) => rank,
             Fault::Rounding(line, _) => match line {
-                RoundingLine::Variable => 1,
-                RoundingLine::Stage(index) => 2 + index,
-                RoundingLine::Divisor => 2,
-                RoundingLine::Quotient => last,
+                Register::V => 1,
+                Register::T(stage) => HEAD_RANKS + stage - 1,
+                Register::Divisor => HEAD_RANKS,
+                _ => last,
             },
             Fault::Logic(logic) => match logic {
-                Logic::NoClampBelow
-                | Logic::NoClampAbove
-                | Logic::NoQuotientClamp
-                | Logic::NoFlag(_) => last,
-                // The divider's first rank is 2, the first quotient bits come in the next.
-                Logic::DigitMissing => 2 + self.digit_stages() as usize,
+                Logic::NoClampBelow | Logic::NoClampAbove | Logic::NoQuotientClamp | Logic::NoFlag(_) => last,
+                // The divider's first rank has the divisor, the first quotient bits come in the next.
+                Logic::DigitMissing => HEAD_RANKS + self.digit_stages() as usize,
                 _ => 1,
             },
         }
@@ -106,28 +101,27 @@ impl<'a> Model<'a> {
     /// What fits the registers of a rank.
     fn trim(&self, rank: usize, signals: &mut Signals) {
         for &(register, format) in &self.registers[rank] {
-            let bits = register.of(signals);
-            *bits = format.from_word(*bits as u64);
+            if let Some(bits) = place(register, signals) {
+                *bits = format.from_word(*bits as u64);
+            }
         }
     }
 }
 
-fn rounded(datapath: Datapath, line: RoundingLine, mode: Rounding) -> Option<Datapath> {
+fn rounded(datapath: Datapath, line: Register, mode: Rounding) -> Option<Datapath> {
     let (front_end, divider) = (*datapath.front_end(), datapath.divider().copied());
-    let stages = datapath.stages().copied();
     match line {
-        RoundingLine::Variable => Some(datapath.with_front_end(front_end.rounded_by(mode))),
-        RoundingLine::Stage(index) => {
-            let mut stages = stages?;
-            stages[index] = stages[index].rounded_by(mode);
-            Some(datapath.with_stages(stages))
+        Register::V => Some(datapath.with_front_end(front_end.rounded_by(mode))),
+        Register::T(stage) => {
+            let line = datapath.stages().get(stage - 1)?.rounded_by(mode);
+            Some(datapath.with_stage(stage - 1, line))
         }
-        RoundingLine::Divisor => {
+        Register::Divisor => {
             let mut divider = divider?;
             divider.divisor = divider.divisor.rounded_by(mode);
             Some(datapath.with_divider(divider))
         }
-        RoundingLine::Quotient => {
+        _ => {
             let mut divider = divider?;
             divider.rounding = mode;
             Some(datapath.with_divider(divider))
@@ -136,7 +130,7 @@ fn rounded(datapath: Datapath, line: RoundingLine, mode: Rounding) -> Option<Dat
 }
 
 impl Faulty<'_> {
-    /// The fault.
+    /// The fault that this hardware has.
     #[must_use]
     pub const fn fault(&self) -> Fault {
         self.fault
@@ -148,7 +142,7 @@ impl Faulty<'_> {
         self.rank
     }
 
-    /// The right hardware.
+    /// The data path without the fault.
     #[must_use]
     pub const fn datapath(&self) -> &Datapath {
         self.model.datapath
@@ -162,7 +156,7 @@ impl Faulty<'_> {
 
     /// The format of a register of the faulty rank.
     #[must_use]
-    pub fn format(&self, register: DataRegister) -> Option<QFormat> {
+    pub fn format(&self, register: Register) -> Option<QFormat> {
         let registers = &self.model.registers[self.rank];
         registers.iter().find(|(known, _)| *known == register).map(|&(_, format)| format)
     }
@@ -180,8 +174,7 @@ impl Faulty<'_> {
     pub fn is_killed(&self, passage: &[Signals]) -> bool {
         // Most inputs do not meet the fault, and nothing needs to be computed behind it.
         let begun = self.takes_in(passage);
-        passage.get(self.rank) != Some(&begun)
-            && passage.last().map(expected) != Some(expected(&self.rest(begun)))
+        passage.get(self.rank) != Some(&begun) && passage.last().map(expected) != Some(expected(&self.rest(begun)))
     }
 
     fn last(&self, passage: &[Signals]) -> Signals {
@@ -226,9 +219,9 @@ impl Faulty<'_> {
         self.altered.as_ref().unwrap_or(&self.model.wide)
     }
 
-    fn damage(&self, register: DataRegister, defect: Defect, held: &mut Signals) {
+    fn damage(&self, register: Register, defect: Defect, held: &mut Signals) {
         let Some(format) = self.format(register) else { return };
-        let bits = register.of(held);
+        let Some(bits) = place(register, held) else { return };
         *bits = match defect {
             Defect::LowBitStuck => *bits & !1,
             Defect::Short => narrower(format).map_or(0, |format| format.from_word(*bits as u64)),
@@ -240,28 +233,20 @@ impl Faulty<'_> {
         match logic {
             Logic::CutExclusive => {
                 let cut = self.model.datapath.front_end().cut(&before.row);
-                self.with_field(FieldName::Cut, cut + 1, before, held);
+                self.with_field(Register::Cut, cut + 1, before, held);
             }
-            Logic::ShiftMore => {
-                self.with_field(
-                    FieldName::Shift,
-                    before.row.get(FieldName::Shift) + 1,
-                    before,
-                    held,
-                );
+            Logic::ShiftMore(segment) => {
+                let shift = Register::Shift(segment);
+                self.with_field(shift, before.row.get(shift) + 1, before, held);
             }
             Logic::ShiftLess => {
-                let less = (before.row.get(FieldName::Shift) - 1).max(0);
-                self.with_field(FieldName::Shift, less, before, held);
+                let shift = Register::Shift(0);
+                self.with_field(shift, (before.row.get(shift) - 1).max(0), before, held);
             }
-            Logic::ShiftOuterMore => {
-                let more = before.row.get(FieldName::ShiftOuter) + 1;
-                self.with_field(FieldName::ShiftOuter, more, before, held);
-            }
-            Logic::HandOverExclusive => {
-                let hand_over = path.front_end().hand_over(&before.row);
+            Logic::HandOverExclusive(segment) => {
+                let hand_over = path.front_end().hand_over(&before.row, segment);
                 if held.region == Region::Polynomial && held.x == hand_over && hand_over > 0 {
-                    held.row = before.row.in_outer();
+                    held.row = before.row.in_segment(segment);
                     held.v = 0;
                 }
             }
@@ -272,10 +257,10 @@ impl Faulty<'_> {
             }
             Logic::RegionsSwapped => self.swap_regions(before, held),
             Logic::NoClampBelow if held.region == Region::Polynomial => {
-                held.intensity = before.t3.min(held.intensity);
+                held.intensity = last(before, path).min(held.intensity);
             }
             Logic::NoClampAbove if held.region == Region::Polynomial => {
-                held.intensity = before.t3.max(held.intensity);
+                held.intensity = last(before, path).max(held.intensity);
             }
             Logic::NoQuotientClamp if held.region == Region::Tail => {
                 if let Some(divider) = path.divider() {
@@ -289,7 +274,7 @@ impl Faulty<'_> {
     }
 
     /// The rank, with a field of the row as the logic takes it; in the row itself it stays.
-    fn with_field(&self, field: FieldName, bits: i64, before: &Signals, held: &mut Signals) {
+    fn with_field(&self, field: Register, bits: i64, before: &Signals, held: &mut Signals) {
         let mut row = before.row;
         row.set(field, bits);
         *held = self.path().advance(self.rank, &Signals { row, ..*before });
@@ -309,12 +294,12 @@ impl Faulty<'_> {
             region => region,
         };
         let (x, row) = (i128::from(held.x), &before.row);
-        let hand_over = i128::from(front_end.hand_over(row));
-        let (start, shift, row) = match front_end.is_outer(x, held.region, hand_over) {
-            true => (hand_over, row.shift_outer(), row.in_outer()),
-            false => (front_end.one.into(), row.shift(), *row),
+        let segment = match held.region {
+            Region::Polynomial => front_end.segment_of(row, held.x),
+            _ => 0,
         };
-        held.row = row;
+        let (start, shift) = (front_end.start(row, segment).into(), row.shift(segment));
+        held.row = row.in_segment(segment);
         held.v = front_end.variable(x, held.region, start, shift) as i64;
         held.tail_x = front_end.tail_x(held.x, held.region);
     }
@@ -331,6 +316,11 @@ impl Faulty<'_> {
             digits: division.digits as i64,
         };
     }
+}
+
+/// What the last stage gave.
+fn last(signals: &Signals, path: &Datapath) -> i64 {
+    signals.get(Register::T(path.degree()))
 }
 
 fn wide(signals: &Signals) -> Division<i128> {

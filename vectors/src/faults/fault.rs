@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hw_model::datapath::{Signals, Status};
-use hw_model::rom::FieldName;
+use hw_model::registers::{MAX_DEGREE, Register};
 use hw_model::rounding::Rounding;
 
 /// Faults of the handshake: which cycle a result comes in, and whether it comes at all. They need a
@@ -14,44 +14,12 @@ pub const HANDSHAKE: [&str; 3] = ["latency+1", "latency-1", "stall_lost"];
 /// A stored field of a row that is one unit of its last place more or less.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct FieldFault {
-    /// The row.
+    /// The address of the ROM row.
     pub address: u32,
-    /// The field.
-    pub field: FieldName,
-    /// +1 or −1.
+    /// The field of the row that is wrong.
+    pub field: Register,
+    /// By how much the stored integer is wrong: +1 or −1 in its last place.
     pub step: i64,
-}
-
-/// A line that rounds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum RoundingLine {
-    /// u = (1 − x)·2^e.
-    Variable,
-    /// Stage 1, 2 or 3, counted from 0.
-    Stage(usize),
-    /// D = A − B·x.
-    Divisor,
-    /// The quotient as the output.
-    Quotient,
-}
-
-/// A register of the data path that holds a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum DataRegister {
-    /// The polynomial's variable.
-    V,
-    /// After stage 1, 2 or 3, counted from 0.
-    T(usize),
-    /// The divider's x.
-    TailX,
-    /// D.
-    Divisor,
-    /// The remainder.
-    Remainder,
-    /// Dividend bits to come and quotient bits found.
-    Digits,
-    /// The result.
-    Intensity,
 }
 
 /// What is wrong with a register.
@@ -68,14 +36,12 @@ pub enum Defect {
 pub enum Logic {
     /// The polynomial answers for x > cut instead of x ≥ cut.
     CutExclusive,
-    /// e is 1 more in every row.
-    ShiftMore,
-    /// e is 1 less in every row that has one.
+    /// The shift of this segment is 1 more in every row.
+    ShiftMore(usize),
+    /// The first segment's shift is 1 less in every row that has one.
     ShiftLess,
-    /// The first segment answers for x > hand_over instead of x ≥ hand_over.
-    HandOverExclusive,
-    /// The second segment's shift is 1 more in every row.
-    ShiftOuterMore,
+    /// This segment, 1 or further, answers for x ≤ its hand-over instead of x < hand-over.
+    HandOverExclusive(usize),
     /// x above 1 is not clamped.
     NoInputClamp,
     /// The sign bit of x counts as its highest bit.
@@ -94,64 +60,47 @@ pub enum Logic {
     DigitMissing,
 }
 
-/// One mistake.
+/// One mistake in the hardware: everything else is right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Fault {
-    /// A ROM field.
+    /// A ROM field is one unit off in its last place.
     Field(FieldFault),
     /// The row at this address and the next have each other's words.
     Swap(u32),
-    /// A line rounds by another mode.
-    Rounding(RoundingLine, Rounding),
-    /// A register of this rank.
-    Register(usize, DataRegister, Defect),
+    /// The line that gives this register its value rounds by another mode: V, T(j), the divisor, or for the quotient
+    /// the intensity.
+    Rounding(Register, Rounding),
+    /// A register of this rank, one of [`DATA`].
+    Register(usize, Register, Defect),
     /// A choice.
     Logic(Logic),
 }
 
-impl DataRegister {
-    /// Every one.
-    pub const ALL: [Self; 9] = [
-        Self::V,
-        Self::T(0),
-        Self::T(1),
-        Self::T(2),
-        Self::TailX,
-        Self::Divisor,
-        Self::Remainder,
-        Self::Digits,
-        Self::Intensity,
-    ];
+/// The registers of the data path that hold numbers: what has a defect shows in them.
+pub const DATA: [Register; MAX_DEGREE + 6] = [
+    Register::V,
+    Register::T(1),
+    Register::T(2),
+    Register::T(3),
+    Register::T(4),
+    Register::TailX,
+    Register::Divisor,
+    Register::Remainder,
+    Register::Digits,
+    Register::Intensity,
+];
 
-    /// Its name, as [`hw_model::datapath::Register`] has it.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::V => "v",
-            Self::T(0) => "t1",
-            Self::T(1) => "t2",
-            Self::T(_) => "t3",
-            Self::TailX => "tail_x",
-            Self::Divisor => "divisor",
-            Self::Remainder => "remainder",
-            Self::Digits => "digits",
-            Self::Intensity => "intensity",
-        }
-    }
-
-    /// Its place in what a rank holds.
-    pub const fn of(self, signals: &mut Signals) -> &mut i64 {
-        match self {
-            Self::V => &mut signals.v,
-            Self::T(0) => &mut signals.t1,
-            Self::T(1) => &mut signals.t2,
-            Self::T(_) => &mut signals.t3,
-            Self::TailX => &mut signals.tail_x,
-            Self::Divisor => &mut signals.division.divisor,
-            Self::Remainder => &mut signals.division.remainder,
-            Self::Digits => &mut signals.division.digits,
-            Self::Intensity => &mut signals.intensity,
-        }
+/// The place of one of [`DATA`] in what a rank holds; none of another register.
+pub const fn place(register: Register, signals: &mut Signals) -> Option<&mut i64> {
+    match register {
+        Register::V => Some(&mut signals.v),
+        Register::T(stage @ 1..=MAX_DEGREE) => Some(&mut signals.t[stage - 1]),
+        Register::TailX => Some(&mut signals.tail_x),
+        Register::Divisor => Some(&mut signals.division.divisor),
+        Register::Remainder => Some(&mut signals.division.remainder),
+        Register::Digits => Some(&mut signals.division.digits),
+        Register::Intensity => Some(&mut signals.intensity),
+        _ => None,
     }
 }
 
@@ -162,14 +111,13 @@ impl fmt::Display for FieldFault {
     }
 }
 
-impl fmt::Display for RoundingLine {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Variable => f.write_str("u"),
-            Self::Stage(index) => f.write_str(DataRegister::T(*index).name()),
-            Self::Divisor => f.write_str("divisor"),
-            Self::Quotient => f.write_str("quotient"),
-        }
+/// The name of a line that rounds, by the register that takes its result: u, t1, …, divisor, quotient.
+#[must_use]
+pub const fn line_name(register: Register) -> &'static str {
+    match register {
+        Register::V => "u",
+        Register::Intensity => "quotient",
+        register => register.name(),
     }
 }
 
@@ -177,10 +125,11 @@ impl fmt::Display for Logic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = match self {
             Self::CutExclusive => "cut_exclusive",
-            Self::ShiftMore => "shift+1",
+            Self::ShiftMore(segment) => return write!(f, "{}+1", Register::Shift(*segment)),
             Self::ShiftLess => "shift-1",
-            Self::HandOverExclusive => "hand_over_exclusive",
-            Self::ShiftOuterMore => "shift_outer+1",
+            Self::HandOverExclusive(segment) => {
+                return write!(f, "{}_exclusive", Register::HandOver(*segment));
+            }
             Self::NoInputClamp => "no_input_clamp",
             Self::NegativeAsUnsigned => "negative_as_unsigned",
             Self::RegionsSwapped => "regions_swapped",
@@ -199,13 +148,13 @@ impl fmt::Display for Fault {
         match self {
             Self::Field(fault) => fault.fmt(f),
             Self::Swap(address) => write!(f, "swap:{address}-{}", address + 1),
-            Self::Rounding(line, mode) => write!(f, "rounding:{line}.{mode}"),
+            Self::Rounding(line, mode) => write!(f, "rounding:{}.{mode}", line_name(*line)),
             Self::Register(rank, register, defect) => {
                 let defect = match defect {
                     Defect::Short => "short",
                     Defect::LowBitStuck => "low_bit_stuck",
                 };
-                write!(f, "{defect}:{rank}.{}", register.name())
+                write!(f, "{defect}:{rank}.{register}")
             }
             Self::Logic(logic) => logic.fmt(f),
         }

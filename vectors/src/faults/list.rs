@@ -2,13 +2,14 @@
 
 use hw_model::datapath::front_end::Variable;
 use hw_model::datapath::{Datapath, Status};
-use hw_model::rom::{FieldName, Place};
+use hw_model::registers::Register;
+use hw_model::rom::Place;
 use hw_model::rounding::Rounding;
 
-use super::fault::{DataRegister, Defect, Fault, FieldFault, Logic, RoundingLine};
+use super::fault::{DATA, Defect, Fault, FieldFault, Logic};
 
 /// The faults of one row: each stored field one unit up and one down, where its format holds that.
-/// At most 28.
+/// At most twice the fields.
 #[must_use]
 pub fn field_faults(datapath: &Datapath, address: u32) -> Vec<FieldFault> {
     let Some(row) = datapath.rom().row(address) else {
@@ -38,32 +39,32 @@ pub fn pipeline_faults(datapath: &Datapath) -> Vec<Fault> {
     faults
 }
 
-/// The lines that drop bits.
-fn rounding_lines(datapath: &Datapath) -> Vec<RoundingLine> {
+/// The lines that drop bits, by the registers that take what they round.
+fn rounding_lines(datapath: &Datapath) -> Vec<Register> {
     let mut lines = Vec::new();
     if matches!(datapath.front_end().variable, Some(Variable::U { drop: 1.., .. })) {
-        lines.push(RoundingLine::Variable);
+        lines.push(Register::V);
     }
-    for (index, stage) in datapath.stages().into_iter().flatten().enumerate() {
-        if stage.dropped_bits() > 0 {
-            lines.push(RoundingLine::Stage(index));
+    for (stage, line) in (1..).zip(datapath.stages()) {
+        if line.dropped_bits() > 0 {
+            lines.push(Register::T(stage));
         }
     }
     if let Some(divider) = datapath.divider() {
         if divider.divisor.dropped_bits() > 0 {
-            lines.push(RoundingLine::Divisor);
+            lines.push(Register::Divisor);
         }
-        lines.push(RoundingLine::Quotient);
+        lines.push(Register::Intensity);
     }
     lines
 }
 
-fn line_mode(datapath: &Datapath, line: RoundingLine) -> Option<Rounding> {
+fn line_mode(datapath: &Datapath, line: Register) -> Option<Rounding> {
     match line {
-        RoundingLine::Variable => datapath.front_end().rounding(),
-        RoundingLine::Stage(index) => datapath.stages().map(|stages| stages[index].rounding()),
-        RoundingLine::Divisor => datapath.divider().map(|divider| divider.divisor.rounding()),
-        RoundingLine::Quotient => datapath.divider().map(|divider| divider.rounding),
+        Register::V => datapath.front_end().rounding(),
+        Register::T(stage) => datapath.stages().get(stage - 1).map(|line| line.rounding()),
+        Register::Divisor => datapath.divider().map(|divider| divider.divisor.rounding()),
+        _ => datapath.divider().map(|divider| divider.rounding),
     }
 }
 
@@ -72,8 +73,10 @@ fn registers(datapath: &Datapath) -> Vec<Fault> {
     let mut faults = Vec::new();
     for rank in 1..datapath.rank_count() {
         for held in datapath.registers(rank).iter().filter(|held| held.computed) {
-            let known = DataRegister::ALL.into_iter().find(|known| known.name() == held.name);
-            let Some(register) = known else { continue };
+            let register = held.register;
+            if !DATA.contains(&register) {
+                continue;
+            }
             if held.format.width() > 1 {
                 faults.push(Fault::Register(rank, register, Defect::Short));
             }
@@ -87,15 +90,15 @@ fn registers(datapath: &Datapath) -> Vec<Fault> {
 fn logic(datapath: &Datapath) -> Vec<Logic> {
     let input = datapath.formats().input;
     let mut list = Vec::new();
-    if datapath.stages().is_some() {
+    if datapath.degree() > 0 {
         list.extend([Logic::CutExclusive, Logic::RegionsSwapped]);
         list.extend([Logic::NoClampBelow, Logic::NoClampAbove, Logic::NoFlag(Status::CLAMPED)]);
     }
-    if datapath.rom().layout().field(FieldName::Shift).is_some() {
-        list.extend([Logic::ShiftMore, Logic::ShiftLess]);
+    if datapath.rom().layout().field(Register::Shift(0)).is_some() {
+        list.extend([Logic::ShiftMore(0), Logic::ShiftLess]);
     }
-    if datapath.has_two_segments() {
-        list.extend([Logic::HandOverExclusive, Logic::ShiftOuterMore]);
+    for segment in 1..datapath.segment_count() {
+        list.extend([Logic::HandOverExclusive(segment), Logic::ShiftMore(segment)]);
     }
     if datapath.divider().is_some() {
         list.extend([Logic::NoQuotientClamp, Logic::DigitMissing]);

@@ -25,9 +25,9 @@ mod list;
 mod rows;
 mod screen;
 
-pub use compact::{Compact, OneByOne, Verdict, Workers, exhaust};
+pub use compact::{Compact, FaultFate, OneByOne, Workers, exhaust};
 pub use evaluate::{Faulty, Model};
-pub use fault::{DataRegister, Defect, Fault, FieldFault, HANDSHAKE, Logic, RoundingLine};
+pub use fault::{DATA, Defect, Fault, FieldFault, HANDSHAKE, Logic, line_name};
 pub use list::{field_faults, pipeline_faults};
 pub use rows::{Mask, RowFaults};
 pub use screen::Screen;

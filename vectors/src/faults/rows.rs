@@ -1,14 +1,18 @@
 //! Which x kill which fault of a row, many x at a time.
 
 use hw_model::datapath::{Block, Datapath};
-use hw_model::rom::{FieldName, Row};
+use hw_model::registers::Register;
+use hw_model::rom::Row;
 
 use super::fault::FieldFault;
 use super::list::field_faults;
 use super::screen::compare;
 
 /// A set of a row's faults: bit k is the k-th of [`RowFaults::faults`].
-pub type Mask = u32;
+pub type Mask = u128;
+
+// Each field up and down.
+const _: () = assert!(2 * Register::ROM_COUNT < Mask::BITS as usize);
 
 /// The faults of one row, and what its hardware answers under each of them.
 #[derive(Debug)]
@@ -36,7 +40,7 @@ impl<'a> RowFaults<'a> {
         Self { datapath, golden, faults, rows, right: Block::default(), wrong: Block::default() }
     }
 
-    /// The faults.
+    /// The faults of the row's stored fields, in the order of the fields.
     #[must_use]
     pub fn faults(&self) -> &[FieldFault] {
         &self.faults
@@ -45,13 +49,12 @@ impl<'a> RowFaults<'a> {
     /// The set of all of them.
     #[must_use]
     pub fn all(&self) -> Mask {
-        // At most 28 faults: 14 fields, up and down.
         (1 << self.faults.len()) - 1
     }
 
     /// The set of those of one field.
     #[must_use]
-    pub fn of_field(&self, field: FieldName) -> Mask {
+    pub fn of_field(&self, field: Register) -> Mask {
         let bits = self.faults.iter().enumerate().filter(|(_, fault)| fault.field == field);
         bits.fold(0, |set, (bit, _)| set | 1 << bit)
     }
@@ -79,21 +82,19 @@ impl<'a> RowFaults<'a> {
     /// True when some x of `low..=high` may reach the part of the pipeline that the field belongs to.
     fn is_met(&self, fault: FieldFault, low: i64, high: i64) -> bool {
         let front_end = self.datapath.front_end();
-        let cut = match self.datapath.stages() {
-            Some(_) => front_end.cut(&self.golden),
-            None => i64::MAX,
+        let cut = match self.datapath.degree() {
+            0 => i64::MAX,
+            _ => front_end.cut(&self.golden),
         };
         match fault.field {
-            FieldName::Cut => {
+            Register::Cut => {
                 let place = 1 << front_end.cut_up;
                 low - place < cut && cut - place <= high
             }
-            FieldName::TailA | FieldName::TailB => low < cut,
-            FieldName::C3Outer
-            | FieldName::C2Outer
-            | FieldName::C1Outer
-            | FieldName::C0Outer
-            | FieldName::ShiftOuter => high >= cut && low < front_end.hand_over(&self.golden),
+            Register::TailA | Register::TailB => low < cut,
+            Register::C(segment @ 1.., _) | Register::Shift(segment @ 1..) => {
+                high >= cut && low < front_end.hand_over(&self.golden, segment)
+            }
             _ => high >= cut,
         }
     }

@@ -8,10 +8,11 @@
 use hw_model::datapath::clamp::clamp;
 use hw_model::datapath::front_end::Region;
 use hw_model::datapath::{Block, Damage, Datapath, Status};
+use hw_model::registers::Register;
 use hw_model::rom::Row;
 
 use super::evaluate::{Faulty, narrower};
-use super::fault::{DataRegister, Defect, Fault, Logic, RoundingLine};
+use super::fault::{Defect, Fault, Logic};
 
 /// What the output ports show of one sample of a block, as [`Datapath::evaluate_row`] gives it: the
 /// intensity, and whether the polynomial was clamped.
@@ -59,7 +60,7 @@ impl Screen {
                 let path = faulty.altered().unwrap_or(datapath);
                 path.evaluate_row(row, None, xs, &mut self.wrong);
             }
-            Fault::Register(rank, register, defect) if register != DataRegister::Intensity => {
+            Fault::Register(rank, register, defect) if register != Register::Intensity => {
                 let damage = damage(faulty, rank, register, defect);
                 datapath.evaluate_row(row, damage.as_ref(), xs, &mut self.wrong);
             }
@@ -85,43 +86,36 @@ impl Screen {
             _ => return None,
         };
         let answers = self.right.intensities.iter().zip(&self.right.regions).enumerate();
-        let outside = answers.filter(|&(_, (&answer, &answered_by))| {
-            answered_by == region && (answer >= least || answer < 0)
-        });
+        let outside =
+            answers.filter(|&(_, (&answer, &answered_by))| answered_by == region && (answer >= least || answer < 0));
         Some(outside.map(|(index, _)| index).collect())
     }
 }
 
-fn damage(
-    faulty: &Faulty<'_>,
-    rank: usize,
-    register: DataRegister,
-    defect: Defect,
-) -> Option<Damage> {
+fn damage(faulty: &Faulty<'_>, rank: usize, register: Register, defect: Defect) -> Option<Damage> {
     let format = faulty.format(register)?;
     let (format, low_bit_stuck) = match defect {
         Defect::Short => (narrower(format)?, false),
         Defect::LowBitStuck => (format, true),
     };
-    Some(Damage { rank, register: register.name(), format, low_bit_stuck })
+    Some(Damage { rank, register, format, low_bit_stuck })
 }
 
 /// False where no x of the chunk reaches the part of the pipeline that the fault sits in.
 fn is_met(fault: Fault, datapath: &Datapath, row: &Row, xs: &[i64]) -> bool {
     let (Some(&low), Some(&high)) = (xs.first(), xs.last()) else { return false };
-    let cut = datapath.stages().map_or(i64::MAX, |_| datapath.front_end().cut(row));
+    let cut = match datapath.degree() {
+        0 => i64::MAX,
+        _ => datapath.front_end().cut(row),
+    };
     match fault {
-        Fault::Rounding(RoundingLine::Variable | RoundingLine::Stage(_), _)
-        | Fault::Register(_, DataRegister::V | DataRegister::T(_), _) => high >= cut,
-        Fault::Rounding(RoundingLine::Divisor | RoundingLine::Quotient, _)
-        | Fault::Register(
-            _,
-            DataRegister::TailX
-            | DataRegister::Divisor
-            | DataRegister::Remainder
-            | DataRegister::Digits,
-            _,
-        ) => low < cut,
+        Fault::Rounding(Register::V | Register::T(_), _) | Fault::Register(_, Register::V | Register::T(_), _) => {
+            high >= cut
+        }
+        Fault::Rounding(..)
+        | Fault::Register(_, Register::TailX | Register::Divisor | Register::Remainder | Register::Digits, _) => {
+            low < cut
+        }
         _ => true,
     }
 }

@@ -29,26 +29,26 @@ pub enum MemoryError {
     /// Something in a line.
     #[error("{}:{line}: {problem}", path.display())]
     Line {
-        /// The file.
+        /// The path of the memory file.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
         /// What is wrong with it.
         problem: LineProblem,
     },
-    /// Words are missing.
+    /// The file ends before every word is there.
     #[error(
         "{}: the word at address {address} is missing ({found} of {expected} words are there); \
          the file may have been cut short: write it again", path.display()
     )]
     Short {
-        /// The file.
+        /// The path of the memory file.
         path: PathBuf,
         /// The first address without a word.
         address: usize,
-        /// Words found.
+        /// The number of words found.
         found: usize,
-        /// Words expected.
+        /// The number of words that the reader was told to expect.
         expected: usize,
     },
 }
@@ -77,16 +77,13 @@ pub enum LineProblem {
     /// The word is beyond the memory's last address.
     #[error("the word for address {address} is one too many; the memory has {depth} words")]
     PastEnd {
-        /// The address.
+        /// The address that the file gives, counted in words.
         address: u64,
         /// Words of the memory.
         depth: usize,
     },
     /// More numbers than any memory of a bundle has words.
-    #[error(
-        "there are more than {} numbers and addresses, and no memory of a bundle has as many words",
-        MOST_NUMBERS
-    )]
+    #[error("there are more than {} numbers and addresses, and no memory of a bundle has as many words", MOST_NUMBERS)]
     TooMany,
     /// A `/*` that is never closed.
     #[error("a comment begins here and does not end; close it with */")]

@@ -1,4 +1,4 @@
-//! Reading memory files.
+//! Reads memory files as `$readmemh` does: hex words, addresses, comments.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -26,7 +26,7 @@ pub struct Entry {
     pub line: u64,
     /// Its address: one more than the number's before it, or as an `@` says.
     pub address: u64,
-    /// Its value.
+    /// The word, or a number with unknown digits.
     pub value: Value,
 }
 
@@ -40,8 +40,7 @@ pub fn parse(text: &str, path: &Path) -> Result<Vec<Entry>, MemoryError> {
     for (line, token) in tokens(text, path)? {
         let wrong = |problem| at_line(path, line, problem);
         if let Some(digits) = token.strip_prefix('@') {
-            let address =
-                hex_digits(digits).and_then(|digits| u64::from_str_radix(&digits, 16).ok());
+            let address = hex_digits(digits).and_then(|digits| u64::from_str_radix(&digits, 16).ok());
             next_address = address.ok_or_else(|| wrong(LineProblem::Address(token.to_owned())))?;
         } else {
             let value = value(token).ok_or_else(|| wrong(LineProblem::Digit(token.to_owned())))?;
@@ -88,9 +87,7 @@ pub fn read_words(path: &Path, width: u32, depth: usize) -> Result<Vec<UBig>, Me
     let missing = words.iter().position(Option::is_none);
     match missing {
         None => Ok(words.into_iter().flatten().collect()),
-        Some(address) => {
-            Err(MemoryError::Short { path: path.to_owned(), address, found, expected: depth })
-        }
+        Some(address) => Err(MemoryError::Short { path: path.to_owned(), address, found, expected: depth }),
     }
 }
 
@@ -107,8 +104,8 @@ pub(crate) fn value(token: &str) -> Option<Value> {
 /// The digits without their `_`; none where they are not a Verilog hex number, which begins with a
 /// digit.
 fn hex_digits(token: &str) -> Option<String> {
-    let proper = token.starts_with(|c: char| c.is_ascii_hexdigit())
-        && token.chars().all(|c| c.is_ascii_hexdigit() || c == '_');
+    let proper =
+        token.starts_with(|c: char| c.is_ascii_hexdigit()) && token.chars().all(|c| c.is_ascii_hexdigit() || c == '_');
     proper.then(|| token.replace('_', ""))
 }
 

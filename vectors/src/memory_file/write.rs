@@ -1,4 +1,4 @@
-//! Writing memory files.
+//! Writes memory files: comments that say the layout, then one word a line in hex.
 
 use std::fmt::LowerHex;
 use std::io::{self, Write};
@@ -12,7 +12,7 @@ pub struct Header<'a> {
     pub title: &'a str,
     /// What a word is made of.
     pub layout: &'a WordLayout,
-    /// Number of words.
+    /// The number of words that follow.
     pub words: u64,
     /// The command that made the file.
     pub command: &'a str,
@@ -40,10 +40,6 @@ pub fn write_header(out: &mut impl Write, header: &Header<'_>) -> io::Result<()>
 ///
 /// # Errors
 /// When the writer does.
-pub fn write_word(
-    out: &mut impl Write,
-    layout: &WordLayout,
-    word: &impl LowerHex,
-) -> io::Result<()> {
+pub fn write_word(out: &mut impl Write, layout: &WordLayout, word: &impl LowerHex) -> io::Result<()> {
     writeln!(out, "{word:00$x}", layout.digits())
 }

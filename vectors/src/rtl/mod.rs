@@ -40,7 +40,7 @@ pub const EXPONENTS: &str = "exponents.mem";
 /// What the generated files are about.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
-    /// The design.
+    /// The design that the RTL, the package and the testbench are written for.
     pub design: &'a Design,
     /// The module under test: [`TOP`], or a designer's own with the same ports.
     pub dut: &'a str,
@@ -76,20 +76,9 @@ pub fn names(strategy: Strategy) -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn stage(
-    bundle: &Bundle<'_>,
-    dut: &str,
-    command: &str,
-    set: &mut OutputSet,
-) -> Result<Manifest, BundleError> {
+pub fn stage(bundle: &Bundle<'_>, dut: &str, command: &str, set: &mut OutputSet) -> Result<Manifest, BundleError> {
     let design = bundle.design();
-    let sources = Sources {
-        design,
-        dut,
-        vectors: bundle.vector_count(),
-        control: bundle.flip().vector,
-        command,
-    };
+    let sources = Sources { design, dut, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
     for (name, text) in SOURCES {
         set.write(name, text)?;
     }
@@ -135,14 +124,13 @@ fn write_stage_words(
 
 fn pack(word: &StageWord, passage: &[Signals]) -> UBig {
     word.fields.iter().fold(UBig::ZERO, |packed, (probe, lsb)| {
-        let bits = (probe.register.bits)(&passage[probe.rank]);
+        let bits = probe.register.bits(&passage[probe.rank]);
         packed | (UBig::from(probe.register.format.to_word(bits)) << *lsb as usize)
     })
 }
 
 fn exponents(design: &Design, command: &str) -> String {
-    let head =
-        "// Blysk exponents of the ROM words as IEEE doubles, for $readmemh and $bitstoreal\n";
+    let head = "// Blysk exponents of the ROM words as IEEE doubles, for $readmemh and $bitstoreal\n";
     let mut text = format!("{head}// made by: {command}\n");
     for exponent in design.rom().exponents().iter() {
         text += &format!("{:016x}\n", exponent.to_bits());

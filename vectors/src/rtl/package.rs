@@ -2,16 +2,21 @@
 //!
 //! A part that the configuration does not have still has its constants, at their least width: the
 //! RTL names them, but builds nothing from them.
+//!
+//! What there are several of (fields of the ROM, coefficients, stages, segments) has a vector beside its single
+//! constants: 32 bits for each, the first at the bottom, so that `C_WIDTH[32*i+:32]` is that of c(i) in a generate
+//! loop. Arrays would say it more plainly, but not every tool takes a parameter that is one.
 
 use askama::Template;
 use hw_model::config::Form;
-use hw_model::datapath::formats::{PolynomialFormats, TailFormats};
+use hw_model::datapath::formats::TailFormats;
 use hw_model::datapath::front_end::{FrontEnd, Region, Variable};
 use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
-use hw_model::rom::{FieldName, Place};
+use hw_model::registers::Register;
+use hw_model::rom::{Field, Place};
 use hw_model::rounding::Rounding;
 
 /// The number of a rounding mode in the RTL, as at the top of `blysk_round_shift.sv`.
@@ -93,13 +98,12 @@ impl Section {
     fn width(self, name: &str, format: Option<QFormat>) -> Self {
         let mut section = self.integer(format!("{name}_WIDTH"), format.map_or(1, QFormat::width));
         if let Some(constant) = section.constants.last_mut() {
-            constant.comment = format
-                .map_or_else(|| "  // not there".to_owned(), |format| format!("  // {format}"));
+            constant.comment = format.map_or_else(|| "  // not there".to_owned(), |format| format!("  // {format}"));
         }
         section
     }
 
-    /// Width and sign.
+    /// Constants for the width of a format and for whether it is signed.
     fn format(self, name: &str, format: Option<QFormat>) -> Self {
         let signed = format.is_some_and(QFormat::is_signed);
         self.width(name, format).integer(format!("{name}_SIGNED"), i64::from(signed))
@@ -107,11 +111,10 @@ impl Section {
 
     /// The places of a multiply-add line.
     fn line(self, name: &str, line: Option<(&MultiplyAdd, u32)>) -> Self {
-        let (up, drop, width, mode) =
-            line.map_or(([0; 3], 0, 1, Rounding::Floor), |(line, width)| {
-                let up = [line.product_up(), line.addend_up(), line.result_up()];
-                (up, line.dropped_bits(), width, line.rounding())
-            });
+        let (up, drop, width, mode) = line.map_or(([0; 3], 0, 1, Rounding::Floor), |(line, width)| {
+            let up = [line.product_up(), line.addend_up(), line.result_up()];
+            (up, line.dropped_bits(), width, line.rounding())
+        });
         let [product, addend, result] = up;
         self.integer(format!("{name}_PRODUCT_UP"), product)
             .integer(format!("{name}_ADDEND_UP"), addend)
@@ -129,16 +132,50 @@ impl Section {
         }
         section
     }
+
+    /// A vector of the section's integers of these names, or of numbers: 32 bits each, the first at the bottom. The
+    /// numbers stand there themselves: linters have something against names in a concatenation.
+    fn vector(mut self, name: &str, elements: impl IntoIterator<Item = String>) -> Self {
+        let number = |element: String| {
+            let declaration = format!("int {element}");
+            let known = self.constants.iter().find(|known| known.declaration == declaration);
+            format!("32'd{}", known.map_or(&element, |known| &known.value))
+        };
+        let mut elements: Vec<String> = elements.into_iter().map(number).collect();
+        elements.reverse();
+        self.constants.push(Constant {
+            declaration: format!("logic [{}:0] {name}", 32 * elements.len().max(1) - 1),
+            value: concatenation(&elements),
+            comment: String::new(),
+        });
+        self
+    }
+}
+
+/// `{a, b, c}`, eight in a line.
+fn concatenation(elements: &[String]) -> String {
+    let lines: Vec<String> = elements.chunks(8).map(|line| line.join(", ")).collect();
+    match lines.as_slice() {
+        [] => "'0".to_owned(),
+        [line] => format!("{{{line}}}"),
+        lines => format!("{{\n    {}}}", lines.join(",\n    ")),
+    }
 }
 
 fn parts(design: &Design) -> Section {
     let datapath = design.datapath();
     Section::new("What the configuration keeps")
-        .integer("HAS_POLYNOMIAL", i64::from(datapath.stages().is_some()))
+        .integer("HAS_POLYNOMIAL", i64::from(datapath.degree() > 0))
         .integer("HAS_TAIL", i64::from(datapath.divider().is_some()))
         .integer("CENTRED", i64::from(design.config().form == Form::Centred))
-        .integer("SEGMENTS", if datapath.has_two_segments() { 2 } else { 1 })
+        .integer("DEGREE", degree(datapath) as i64)
+        .integer("SEGMENTS", datapath.segment_count() as i64)
         .integer("RANKS", datapath.rank_count() as i64)
+}
+
+/// The degree; 1 where there is no polynomial, whose constants are named all the same.
+fn degree(datapath: &Datapath) -> usize {
+    datapath.degree().max(1)
 }
 
 fn ports(datapath: &Datapath) -> Section {
@@ -168,33 +205,91 @@ fn rom(datapath: &Datapath) -> Section {
         .integer("ROM_WIDTH", rom.layout().word_width().max(1))
 }
 
+/// The fields of a word, one after the other, as the ROM module gives them: stored ones and constants.
 fn fields(datapath: &Datapath) -> Section {
-    let layout = datapath.rom().layout();
-    FieldName::ALL.into_iter().fold(Section::new("ROM fields"), |section, name| {
-        let field = layout.field(name);
+    let fields = datapath.rom().layout().fields();
+    let mut section = Section::new("ROM fields");
+    let mut place = 0;
+    let mut constants = Vec::new();
+    for Field { name, format, place: kept } in fields {
         let upper = name.name().to_uppercase();
-        let width = field.map_or(1, |field| field.format.width());
-        let (stored, lsb, constant) = match field.map(|field| (field.place, field.format)) {
-            Some((Place::Stored { lsb }, _)) => (1, lsb, 0),
-            Some((Place::Constant { bits }, format)) => (0, 0, format.to_word(bits)),
-            None => (0, 0, 0),
+        let (stored, lsb, constant) = match *kept {
+            Place::Stored { lsb } => (1, lsb, 0),
+            Place::Constant { bits } => (0, 0, format.to_word(bits)),
         };
-        let format = field.map(|field| field.format);
-        let section = match name {
-            FieldName::C3
-            | FieldName::C2
-            | FieldName::C1
-            | FieldName::C0
-            | FieldName::TailA
-            | FieldName::TailB => section.format(&upper, format),
-            // No sign, or the first segment's.
-            _ => section.width(&upper, format),
+        section = match name {
+            Register::C(..) | Register::TailA | Register::TailB => section.format(&upper, Some(*format)),
+            _ => section.width(&upper, Some(*format)),
         };
-        section
+        section = section
             .integer(format!("{upper}_STORED"), stored)
             .integer(format!("{upper}_LSB"), lsb)
-            .bits(format!("{upper}_CONSTANT"), width, constant)
+            .bits(format!("{upper}_CONSTANT"), format.width(), constant)
+            .integer(format!("{upper}_PLACE"), place);
+        constants.push(format!("{upper}_CONSTANT"));
+        place += format.width();
+    }
+    let names: Vec<String> = fields.iter().map(|field| field.name.name().to_uppercase()).collect();
+    let all = |suffix: &str| names.iter().map(|name| format!("{name}_{suffix}")).collect::<Vec<_>>();
+    constants.reverse();
+    section = not_there(datapath, section)
+        .integer("FIELDS", fields.len() as i64)
+        .integer("FIELDS_WIDTH", place)
+        .vector("FIELD_WIDTH", all("WIDTH"))
+        .vector("FIELD_STORED", all("STORED"))
+        .vector("FIELD_LSB", all("LSB"))
+        .vector("FIELD_PLACE", all("PLACE"));
+    section.constants.push(Constant {
+        declaration: format!("logic [{}:0] FIELD_CONSTANT", place - 1),
+        value: concatenation(&constants),
+        comment: String::new(),
+    });
+    by_segment(datapath, section)
+}
+
+/// The constants of fields that the RTL names and the word does not have.
+fn not_there(datapath: &Datapath, section: Section) -> Section {
+    let named = (0..=degree(datapath)).map(|power| Register::C(0, power));
+    let named = named.chain([Register::Cut, Register::TailA, Register::TailB]);
+    let missing = named.filter(|&name| datapath.rom().layout().field(name).is_none());
+    missing.fold(section, |section, name| {
+        let upper = name.name().to_uppercase();
+        let section = match name {
+            Register::Cut => section.width(&upper, None),
+            _ => section.format(&upper, None),
+        };
+        section.integer(format!("{upper}_STORED"), 0).integer(format!("{upper}_PLACE"), 0)
     })
+}
+
+/// Where the fields of each coefficient and of each segment are.
+fn by_segment(datapath: &Datapath, section: Section) -> Section {
+    let (degree, segments) = (degree(datapath), datapath.segment_count());
+    let layout = datapath.rom().layout();
+    let of = |register: Register, suffix: &str, otherwise: &str| match layout.field(register) {
+        Some(_) => format!("{}_{suffix}", register.name().to_uppercase()),
+        None => otherwise.to_owned(),
+    };
+    let powers = |suffix: &'static str| (0..=degree).map(move |power| format!("C{power}_{suffix}")).collect::<Vec<_>>();
+    let places =
+        (0..segments).flat_map(|segment| (0..=degree).map(move |power| of(Register::C(segment, power), "PLACE", "0")));
+    let shift = |suffix: &'static str, otherwise: &'static str| {
+        (0..segments).map(move |segment| of(Register::Shift(segment), suffix, otherwise))
+    };
+    let hand_over = |suffix: &'static str, otherwise: &'static str| {
+        (0..segments).map(move |segment| match segment {
+            0 => otherwise.to_owned(),
+            _ => of(Register::HandOver(segment), suffix, otherwise),
+        })
+    };
+    section
+        .vector("C_WIDTH", powers("WIDTH"))
+        .vector("C_SIGNED", powers("SIGNED"))
+        .vector("C_PLACE", places)
+        .vector("SHIFT_WIDTHS", shift("WIDTH", "1"))
+        .vector("SHIFT_PLACES", shift("PLACE", "0"))
+        .vector("HAND_OVER_WIDTHS", hand_over("WIDTH", "1"))
+        .vector("HAND_OVER_PLACES", hand_over("PLACE", "0"))
 }
 
 fn front_end(datapath: &Datapath) -> Section {
@@ -202,7 +297,9 @@ fn front_end(datapath: &Datapath) -> Section {
     let formats = datapath.formats();
     let width = |format: Option<QFormat>| format.map_or(1, QFormat::width);
     let FrontEnd { cut_up, hand_over_up, .. } = *datapath.front_end();
-    let shift = width(formats.shift).max(width(formats.shift_outer));
+    let layout = datapath.rom().layout();
+    let shifts = (0..datapath.segment_count()).map(|k| layout.field(Register::Shift(k)));
+    let shift = shifts.map(|field| width(field.map(|field| field.format))).max().unwrap_or(1);
     let (up, drop) = match datapath.front_end().variable {
         Some(Variable::U { up, drop, .. }) => (up, drop),
         Some(Variable::X) | None => (0, 0),
@@ -221,30 +318,46 @@ fn front_end(datapath: &Datapath) -> Section {
 fn polynomial(design: &Design) -> Section {
     let datapath = design.datapath();
     let formats = datapath.formats().polynomial;
-    let of = |get: fn(&PolynomialFormats) -> QFormat| formats.as_ref().map(get);
-    let carried = |section: Section, name: FieldName| {
-        let name_carried = format!("{}_CARRIED", name.name().to_uppercase());
-        section.integer(name_carried, i64::from(datapath.is_carried(name)))
-    };
-    let mut section = FieldName::COEFFICIENTS
-        .into_iter()
-        .rev()
-        .fold(Section::new("Polynomial"), carried)
-        .width("V", of(|f| f.v))
-        .format("T1", of(|f| f.t1))
-        .format("T2", of(|f| f.t2))
-        .format("T3", of(|f| f.t3))
-        .integer("T3_EXCEEDS_ONE", i64::from(datapath.t3_exceeds_one()));
-    for (index, name) in ["T1", "T2", "T3"].into_iter().enumerate() {
-        let line = datapath.stages().zip(formats.as_ref()).map(|(stages, formats)| {
-            let [c0, c1, c2, c3] = formats.coefficients;
-            let (multiplicand, addend) = [(c3, c2), (formats.t1, c1), (formats.t2, c0)][index];
-            let line = &stages[index];
+    let degree = degree(datapath);
+    let mut section = Section::new("Polynomial");
+    for power in (0..=degree).rev() {
+        let carried = datapath.degree() > 0 && datapath.is_carried(power);
+        section = section.integer(format!("C{power}_CARRIED"), i64::from(carried));
+    }
+    section = section.width("V", formats.as_ref().map(|f| f.v));
+    for stage in 1..=degree {
+        let of_stage = formats.as_ref().map(|f| f.t()[stage - 1]);
+        section = section.format(&format!("T{stage}"), of_stage);
+    }
+    section = section.integer("POLYNOMIAL_EXCEEDS_ONE", i64::from(datapath.last_exceeds_one()));
+    for stage in 1..=degree {
+        let line = datapath.stages().get(stage - 1).zip(formats.as_ref()).map(|(line, formats)| {
+            let (multiplicand, addend) = (formats.multiplicand(stage), formats.addend(stage));
             (line, line.lane_bits(multiplicand.width(), formats.v.width(), addend.width()))
         });
-        section = section.line(name, line);
+        section = section.line(&format!("T{stage}"), line);
+    }
+    let powers = (0..=degree).map(|power| format!("C{power}_CARRIED"));
+    section = section.vector("C_CARRIED", powers);
+    // T0 is the highest coefficient: what the first stage multiplies.
+    for suffix in ["WIDTH", "SIGNED"] {
+        let stages = (1..=degree).map(|stage| format!("T{stage}_{suffix}"));
+        let highest = formats.as_ref().map(|f| f.multiplicand(1));
+        let first = match suffix {
+            "WIDTH" => highest.map_or(1, QFormat::width),
+            _ => highest.is_some_and(QFormat::is_signed).into(),
+        };
+        let all = std::iter::once(first.to_string()).chain(stages);
+        section = section.vector(&format!("T_{suffix}"), all);
+    }
+    for suffix in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH", "ROUNDING"] {
+        let stages = (1..=degree).map(|stage| format!("T{stage}_{suffix}"));
+        let all = std::iter::once("0".to_owned()).chain(stages);
+        section = section.vector(&format!("T_{suffix}"), all);
     }
     section
+        .integer("POLYNOMIAL_WIDTH", formats.as_ref().map_or(1, |f| f.last().width()))
+        .integer("POLYNOMIAL_SIGNED", i64::from(formats.is_some_and(|f| f.last().is_signed())))
 }
 
 fn tail(datapath: &Datapath) -> Section {
@@ -268,14 +381,14 @@ fn tail(datapath: &Datapath) -> Section {
 
 fn encodings(datapath: &Datapath) -> Section {
     const REGION_WIDTH: u32 = 2;
-    let mut section =
-        Section::new("Regions, and the bits of the status").integer("REGION_WIDTH", REGION_WIDTH);
+    let mut section = Section::new("Regions, and the bits of the status").integer("REGION_WIDTH", REGION_WIDTH);
     for region in [Region::Zero, Region::Polynomial, Region::Tail] {
         let name = format!("REGION_{}", region.name().to_uppercase());
         section = section.bits(name, REGION_WIDTH, region as u64);
     }
     section = section.integer("STATUS_WIDTH", datapath.status_width());
-    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for it.
+    // A domain's flag is the last bit, which the front end finds by the width: a package without one has no name for
+    // it.
     let flags = datapath.status_flags().iter().filter(|(flag, _)| *flag != Status::OUT_OF_DOMAIN);
     flags.fold(section, |section, &(flag, name)| {
         section.integer(format!("STATUS_{}", name.to_uppercase()), flag.bits().trailing_zeros())

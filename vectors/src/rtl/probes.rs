@@ -1,7 +1,9 @@
 //! What ports and registers are called: in traces, in waves, and in the RTL. `docs/FILES.md` has the table.
 
-use hw_model::datapath::{Datapath, Register};
+use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::format::QFormat;
+use hw_model::registers::Register;
 
 /// A port of the pipeline.
 #[derive(Debug, Clone, Copy)]
@@ -10,7 +12,7 @@ pub struct Port {
     pub name: &'static str,
     /// Its column in traces; the clock has none.
     pub column: Option<&'static str>,
-    /// Its format.
+    /// The format of the port's bits.
     pub format: QFormat,
 }
 
@@ -39,15 +41,15 @@ pub fn ports(datapath: &Datapath) -> [Port; 10] {
 /// A register of the model with its place in the RTL.
 #[derive(Debug, Clone)]
 pub struct Probe {
-    /// The rank.
+    /// The rank it stands in, counted from 0.
     pub rank: usize,
     /// Its name with its part's: `stage1.t1`.
     pub name: String,
-    /// The model's register.
-    pub register: Register,
+    /// The register of the model that holds the same bits.
+    pub register: RankRegister,
     /// What it is called in waves, in the scope of its rank: `stage1.t1_q`.
     pub wave: String,
-    /// What it is called in the RTL, below the top module: `polynomial.stage1.t_q`. In a rank where
+    /// What it is called in the RTL, below the top module: `polynomial.stage[1].multiply_add.t_q`. In a rank where
     /// the model keeps a field apart that the RTL keeps in a wider register, a wire that shows it.
     pub path: String,
 }
@@ -59,8 +61,8 @@ pub fn probes(datapath: &Datapath) -> Vec<Probe> {
     for rank in 0..datapath.rank_count() {
         for register in datapath.registers(rank) {
             let name = datapath.register_name(rank, &register);
-            let wave = format!("{}.{}_q", datapath.rank_name(rank), register.name);
-            let path = path(datapath, rank, register.name);
+            let wave = format!("{}.{}_q", datapath.rank_name(rank), register.name());
+            let path = path(datapath, rank, register.register);
             probes.push(Probe { rank, name, register, wave, path });
         }
     }
@@ -86,42 +88,52 @@ pub fn valid_wave(datapath: &Datapath, rank: usize) -> String {
 /// start, where a register would be unknown.
 pub const FETCH_STATUS: &str = "fetch_status";
 
-/// Ranks before the first multiply-add stage.
-const HEAD: usize = 2;
-/// The rank of t3.
-const STAGE3: usize = 4;
-
-fn path(datapath: &Datapath, rank: usize, name: &str) -> String {
+fn path(datapath: &Datapath, rank: usize, register: Register) -> String {
     let last = datapath.rank_count() - 1;
-    match (rank, name) {
-        (0, "x") => "x_q".to_owned(),
-        (0, "status") => FETCH_STATUS.to_owned(),
-        (0, field) => field.to_owned(),
-        (_, "intensity" | "status") if rank == last => format!("clamp.{name}_q"),
-        (1, "v") => "front_end.variable.v_q".to_owned(),
-        (1, "tail_x") => "front_end.tail.tail_x_q".to_owned(),
-        (1, "region" | "status") => format!("front_end.{name}_q"),
-        (_, "region" | "status") => carried(&format!("{name}_delay"), rank - HEAD),
-        (_, "c3" | "c2" | "c1" | "c0") => carried(&format!("polynomial.{name}_delay"), rank - 1),
-        (_, "tail_a") => carried("tail.a_delay", rank - 1),
-        (_, "tail_b") => carried("tail.b_delay", rank - 1),
-        (_, "v") => carried(&format!("polynomial.v_delay_{rank}"), 0),
-        (_, "t1" | "t2") => format!("polynomial.stage{}.t_q", rank - 1),
-        (STAGE3, "t3") => "polynomial.stage3.t_q".to_owned(),
-        (_, "t3") => carried("polynomial.wait_for_tail.t3_delay", rank - STAGE3 - 1),
-        (HEAD, "divisor") => "tail.divider.divisor_stage.t_q".to_owned(),
-        (HEAD, division) => format!("tail.divider.{division}_q"),
-        (_, division) => digit_stage(datapath, rank - HEAD - 1, division),
+    let degree = datapath.degree();
+    match (rank, register) {
+        (0, Register::X) => "x_q".to_owned(),
+        (0, Register::Status) => FETCH_STATUS.to_owned(),
+        (0, field) => rom_field(datapath, field),
+        (_, Register::Intensity | Register::Status) if rank == last => {
+            format!("clamp.{register}_q")
+        }
+        (1, Register::V) => "front_end.variable.v_q".to_owned(),
+        (1, Register::TailX) => "front_end.tail.tail_x_q".to_owned(),
+        (1, Register::Region | Register::Status) => format!("front_end.{register}_q"),
+        (_, Register::Region | Register::Status) => carried(&format!("{register}_delay"), rank - HEAD_RANKS),
+        (_, Register::C(_, power)) => carried(&format!("polynomial.coefficient[{power}].delay"), rank - 1),
+        (_, Register::TailA) => carried("tail.a_delay", rank - 1),
+        (_, Register::TailB) => carried("tail.b_delay", rank - 1),
+        (_, Register::V) => carried(&format!("polynomial.stage[{rank}].later.v_delay"), 0),
+        (_, Register::T(stage)) if rank > degree + 1 => {
+            carried("polynomial.wait_for_tail.t_delay", rank - stage - HEAD_RANKS)
+        }
+        (_, Register::T(stage)) => format!("polynomial.stage[{stage}].multiply_add.t_q"),
+        (HEAD_RANKS, Register::Divisor) => "tail.divider.divisor_stage.t_q".to_owned(),
+        (HEAD_RANKS, division) => format!("tail.divider.{division}_q"),
+        (_, division) => digit_stage(datapath, rank - HEAD_RANKS - 1, division),
     }
 }
 
+/// A field of the ROM word, which the RTL has by its number.
+fn rom_field(datapath: &Datapath, register: Register) -> String {
+    let fields = datapath.rom().layout().fields();
+    let number = fields.iter().position(|field| field.name == register).unwrap_or(fields.len());
+    format!("rom.field[{number}].value")
+}
+
 /// The registers after digit stage `step`, and where the division waits for the polynomial.
-fn digit_stage(datapath: &Datapath, step: usize, name: &str) -> String {
+fn digit_stage(datapath: &Datapath, step: usize, register: Register) -> String {
     let steps = datapath.divider().map_or(0, |divider| divider.digit_stages() as usize);
-    match name {
-        "divisor" => format!("tail.divider.digit_stage[{step}].quotient_bits.carried.divisor_q"),
-        _ if step < steps => format!("tail.divider.digit_stage[{step}].quotient_bits.{name}_q"),
-        _ => carried(&format!("tail.wait_for_polynomial.{name}_delay"), step - steps),
+    match register {
+        Register::Divisor => {
+            format!("tail.divider.digit_stage[{step}].quotient_bits.carried.divisor_q")
+        }
+        _ if step < steps => {
+            format!("tail.divider.digit_stage[{step}].quotient_bits.{register}_q")
+        }
+        _ => carried(&format!("tail.wait_for_polynomial.{register}_delay"), step - steps),
     }
 }
 
@@ -157,8 +169,8 @@ impl StageWord {
     /// Where the value that a register holds in `rank` stands in the word: that of the last rank up
     /// to there that computed it.
     #[must_use]
-    pub fn lsb(&self, rank: usize, name: &str) -> Option<u32> {
+    pub fn lsb(&self, rank: usize, register: Register) -> Option<u32> {
         let mut before = self.fields.iter().filter(|(probe, _)| probe.rank <= rank);
-        before.rfind(|(probe, _)| probe.register.name == name).map(|&(_, lsb)| lsb)
+        before.rfind(|(probe, _)| probe.register.register == register).map(|&(_, lsb)| lsb)
     }
 }

@@ -29,7 +29,7 @@ pub enum RegisterLogError {
     /// A line has another number of words.
     #[error("line {line}: {found} words, and not {wanted}; is it a log of another configuration?")]
     Words {
-        /// Counted from 1.
+        /// The number of the line, counted from 1.
         line: u64,
         /// How many there are.
         found: usize,
@@ -39,9 +39,9 @@ pub enum RegisterLogError {
     /// A word is not hex.
     #[error("line {line}: {text:?} is not a hex number of at most 64 bits")]
     Hex {
-        /// Counted from 1.
+        /// The number of the line, counted from 1.
         line: u64,
-        /// The word.
+        /// The word as the log has it.
         text: String,
     },
     /// The log stops before its end.
@@ -52,15 +52,15 @@ pub enum RegisterLogError {
     Unfinished {
         /// The last line, counted from 1.
         line: u64,
-        /// Cycles read.
+        /// The number of cycles read before the log ended.
         cycles: u64,
     },
     /// An input that only the testbench drives is unknown.
     #[error("line {line}: the input {port} is unknown; it is driven by the testbench, never x")]
     UnknownInput {
-        /// Counted from 1.
+        /// The number of the line, counted from 1.
         line: u64,
-        /// The port.
+        /// The input port whose bits are unknown.
         port: &'static str,
     },
 }
@@ -70,19 +70,19 @@ pub enum RegisterLogError {
 pub struct RegisterLine {
     /// Line of the file, counted from 1.
     pub line: u64,
-    /// rst_i.
+    /// The level of `rst_i`.
     pub reset: bool,
-    /// in_valid_i.
+    /// The level of `in_valid_i`.
     pub in_valid: bool,
-    /// in_ready_o.
+    /// The level of `in_ready_o`; none where the log has `x` or `z`.
     pub in_ready: Option<u64>,
-    /// address_i.
+    /// The value at `address_i`.
     pub address: u32,
-    /// x_i, its bits.
+    /// The bits at `x_i`, in the input format.
     pub x: i64,
-    /// out_valid_o.
+    /// The level of `out_valid_o`; none where the log has `x` or `z`.
     pub out_valid: Option<u64>,
-    /// out_ready_i.
+    /// The level of `out_ready_i`.
     pub out_ready: bool,
     /// For each rank its valid flag and its registers, as words.
     pub words: Vec<Option<u64>>,
@@ -103,15 +103,7 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
     /// The log of a data path.
     pub fn new(datapath: &'a Datapath, input: R) -> Self {
         let probes = probes(datapath);
-        Self {
-            datapath,
-            probes,
-            input,
-            text: String::new(),
-            current: RegisterLine::default(),
-            cycles: 0,
-            ended: false,
-        }
+        Self { datapath, probes, input, text: String::new(), current: RegisterLine::default(), cycles: 0, ended: false }
     }
 
     /// The registers, in the order of a line (valid flags apart).
@@ -133,7 +125,7 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
             if read.map_err(TextProblem::from)? == 0 {
                 let cycles = self.cycles;
                 let unfinished = RegisterLogError::Unfinished { line: line - 1, cycles };
-                // A file without any cycle is not one that was cut off; whoever asked finds nothing in it.
+                // A file without any cycle is not one that was cut off; the caller finds no cycle in it.
                 return if self.ended || cycles == 0 { Ok(None) } else { Err(unfinished) };
             }
             if self.text.starts_with("R ") {
@@ -153,8 +145,7 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
         let mut count = 0;
         self.current.words.clear();
         for text in self.text.split_ascii_whitespace().skip(1) {
-            let word =
-                word(text).ok_or_else(|| RegisterLogError::Hex { line, text: text.to_owned() })?;
+            let word = word(text).ok_or_else(|| RegisterLogError::Hex { line, text: text.to_owned() })?;
             match ports.get_mut(count) {
                 Some(port) => *port = word,
                 None => self.current.words.push(word),
@@ -166,8 +157,7 @@ impl<'a, R: BufRead> RegisterLog<'a, R> {
             return Err(RegisterLogError::Words { line, found: count, wanted });
         }
         let [reset, in_valid, in_ready, address, x, out_valid, out_ready] = ports;
-        let known =
-            |port, word: Option<u64>| word.ok_or(RegisterLogError::UnknownInput { line, port });
+        let known = |port, word: Option<u64>| word.ok_or(RegisterLogError::UnknownInput { line, port });
         self.current.reset = known("rst_i", reset)? != 0;
         self.current.in_valid = known("in_valid_i", in_valid)? != 0;
         self.current.in_ready = in_ready;

@@ -8,6 +8,7 @@ use std::path::Path;
 
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
+use hw_model::registers::Register;
 
 use super::probes::{VALID_FLAGS, ports, probes, valid_wave};
 
@@ -31,13 +32,13 @@ pub enum Names {
     Ranks,
     /// Those of the RTL; they are shown under the names of traces.
     Rtl,
-    /// The ports alone: the module is somebody else's.
+    /// The ports alone: the module is the user's own, with registers of other names.
     Ports,
 }
 
 impl Names {
-    /// Twenty or thirty cycles on the screen: the power of two by which a unit of time is drawn smaller. Our waves count
-    /// ns, the testbench's ps.
+    /// Twenty or thirty cycles on the screen: the power of two by which a unit of time is drawn smaller. Our waves
+    /// count ns, the testbench's ps.
     const fn zoom(self) -> u32 {
         match self {
             Self::Ranks => 7,
@@ -101,12 +102,7 @@ impl SaveFile<'_> {
                 for probe in probes.iter().filter(|probe| probe.rank == rank) {
                     let path = if in_rtl { &probe.path } else { &probe.wave };
                     let label = in_rtl.then_some(probe.name.as_str());
-                    file.signal(
-                        label,
-                        path,
-                        probe.register.format,
-                        probe.register.name == "status",
-                    );
+                    file.signal(label, path, probe.register.format, probe.register.register == Register::Status);
                 }
             });
         }

@@ -1,4 +1,4 @@
-//! The self-checking testbench.
+//! Writes the self-checking testbench, from a template and the register list.
 
 use askama::Template;
 use hw_model::datapath::Datapath;
@@ -76,11 +76,7 @@ struct Number {
 
 impl Number {
     fn of(format: QFormat) -> Self {
-        Self {
-            width: format.width(),
-            signed: u8::from(format.is_signed()),
-            fraction: format.fraction_bits(),
-        }
+        Self { width: format.width(), signed: u8::from(format.is_signed()), fraction: format.fraction_bits() }
     }
 }
 
@@ -104,18 +100,15 @@ struct Field {
 
 fn ranks(datapath: &Datapath, probes: &[Probe], word: &StageWord) -> Vec<Rank> {
     let of_rank = |index| {
-        let registers: Vec<Field> = probes
-            .iter()
-            .filter(|probe| probe.rank == index)
-            .filter_map(|probe| field(probe, word))
-            .collect();
+        let registers: Vec<Field> =
+            probes.iter().filter(|probe| probe.rank == index).filter_map(|probe| field(probe, word)).collect();
         Rank { index, count: registers.len(), registers }
     };
     (0..datapath.rank_count()).map(of_rank).collect()
 }
 
 fn field(probe: &Probe, word: &StageWord) -> Option<Field> {
-    let lsb = word.lsb(probe.rank, probe.register.name)?;
+    let lsb = word.lsb(probe.rank, probe.register.register)?;
     let Number { width, signed, fraction } = Number::of(probe.register.format);
     Some(Field {
         name: probe.name.clone(),

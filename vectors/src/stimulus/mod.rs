@@ -50,13 +50,7 @@ impl<'a> Stimulus<'a> {
 
     /// The same; `workers` do what takes long.
     #[must_use]
-    pub fn with_workers(
-        design: &'a Design,
-        strategy: Strategy,
-        count: u64,
-        seed: u64,
-        workers: &impl Workers,
-    ) -> Self {
+    pub fn with_workers(design: &'a Design, strategy: Strategy, count: u64, seed: u64, workers: &impl Workers) -> Self {
         let mut stimulus = Self {
             design,
             seed,
@@ -103,7 +97,7 @@ impl<'a> Stimulus<'a> {
         self.len() == 0
     }
 
-    /// The corners.
+    /// The corners that the vectors were taken from.
     #[must_use]
     pub const fn corners(&self) -> &Corners {
         &self.corners

@@ -15,18 +15,12 @@ pub struct Point {
 
 /// At most `limit` samples: the first of each list, then `after_first`, then the second of each list, and
 /// so on. A round that is cut short is spread over the rows.
-pub fn in_rounds(
-    design: &Design,
-    lists: &[Vec<Point>],
-    after_first: &[Sample],
-    limit: u64,
-) -> Vec<Sample> {
+pub fn in_rounds(design: &Design, lists: &[Vec<Point>], after_first: &[Sample], limit: u64) -> Vec<Sample> {
     let limit = usize::try_from(limit).unwrap_or(usize::MAX);
     let longest = lists.iter().map(Vec::len).max().unwrap_or(0);
     let mut samples = Vec::new();
     for round in 0..longest.max(1) {
-        let addresses: Vec<usize> =
-            (0..lists.len()).filter(|&address| lists[address].len() > round).collect();
+        let addresses: Vec<usize> = (0..lists.len()).filter(|&address| lists[address].len() > round).collect();
         let left = limit - samples.len();
         let taken = addresses.len().min(left) as u64;
         samples.extend((0..taken).map(|index| {

@@ -13,7 +13,7 @@ use std::ops::RangeInclusive;
 
 use hw_model::datapath::Datapath;
 use hw_model::design::Design;
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 
 use super::random::Dice;
 use super::rounds::{Point, in_rounds};
@@ -39,9 +39,8 @@ impl Targets {
     #[must_use]
     pub fn new(design: &Design, limit: u64) -> Self {
         let mut allowance = ALLOWANCE;
-        let rows: Vec<Row> = (0..design.rom().depth() as u32)
-            .map(|address| Row::search(design, address, &mut allowance))
-            .collect();
+        let rows: Vec<Row> =
+            (0..design.rom().depth() as u32).map(|address| Row::search(design, address, &mut allowance)).collect();
         let lists: Vec<Vec<Point>> = rows.iter().map(|row| row.points.clone()).collect();
         let samples = in_rounds(design, &lists, &[], limit);
         let mut taken = vec![0; rows.len()];
@@ -55,7 +54,7 @@ impl Targets {
         }
     }
 
-    /// The targets taken.
+    /// The targets that were taken, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples
@@ -94,7 +93,7 @@ impl Row {
             masks.extend(killed);
         }
         // A wrong cut shows at the cut or just below it, and both are among the candidates.
-        let survivors = row.all() & !union(&masks) & !row.of_field(FieldName::Cut);
+        let survivors = row.all() & !union(&masks) & !row.of_field(Register::Cut);
         let front_end = datapath.front_end();
         if survivors != 0 && front_end.greatest < *allowance {
             *allowance -= front_end.greatest;
@@ -114,11 +113,7 @@ impl Row {
             chosen.push(0);
         }
         let points = chosen.iter().map(|&index| Point { kind: Kind::Target, x: xs[index] });
-        Self {
-            faults: row.all(),
-            points: points.collect(),
-            masks: chosen.iter().map(|&index| masks[index]).collect(),
-        }
+        Self { faults: row.all(), points: points.collect(), masks: chosen.iter().map(|&index| masks[index]).collect() }
     }
 
     /// How many faults the first points kill.
@@ -136,15 +131,11 @@ fn candidates(datapath: &Datapath, address: u32) -> Vec<Vec<i64>> {
     // About a million for the whole ROM.
     let count = ((1 << 19) / datapath.rom().depth().max(1) as i64).clamp(16, 1024);
     let greatest = datapath.front_end().greatest;
-    let cut = match datapath.stages() {
-        Some(_) => datapath.front_end().cut(&datapath.row(address)).min(greatest + 1),
-        None => greatest + 1,
-    };
+    let spans = datapath.polynomial_spans(&datapath.row(address));
     let mut dice = Dice::new(address.into());
-    // 0 with one segment, so that its part is empty.
-    let hand_over = datapath.front_end().hand_over(&datapath.row(address)).clamp(cut, greatest + 1);
-    let parts = [0..=cut - 1, cut..=hand_over - 1, hand_over..=greatest];
-    let filled = parts.into_iter().filter(|part| !part.is_empty());
+    let below = 0..=spans.first().map_or(greatest, |&(first, _)| first - 1);
+    let parts = std::iter::once(below).chain(spans.into_iter().map(|(first, last)| first..=last));
+    let filled = parts.filter(|part| !part.is_empty());
     filled.map(|part| of_part(part, count, &mut dice)).collect()
 }
 

@@ -35,37 +35,37 @@ pub enum TableError {
     /// The file is not CSV (with the line).
     #[error("cannot read {}: {cause}", path.display())]
     Csv {
-        /// The file.
+        /// The path of the table.
         path: PathBuf,
-        /// What is wrong.
+        /// What is wrong with the CSV, with its line.
         cause: csv::Error,
     },
     /// A column is missing.
     #[error("{}: there is no column `{column}`", path.display())]
     Column {
-        /// The file.
+        /// The path of the table.
         path: PathBuf,
-        /// The column.
+        /// The name of the column that is missing.
         column: String,
     },
     /// More lines than a bundle has vectors.
     #[error("{} has more than {most} vectors, the most of a bundle; write several bundles", path.display())]
     Long {
-        /// The file.
+        /// The path of the table.
         path: PathBuf,
-        /// The most.
+        /// The most lines that a table may have.
         most: u64,
     },
     /// A field is not what its column holds.
     #[error("{}:{line}: column `{column}`: {text:?} is not {wanted}", path.display())]
     Field {
-        /// The file.
+        /// The path of the table.
         path: PathBuf,
         /// The line, counted from 1.
         line: u64,
-        /// The column.
+        /// The name of the field's column.
         column: String,
-        /// The field.
+        /// The field as the table has it.
         text: String,
         /// What it should be.
         wanted: &'static str,

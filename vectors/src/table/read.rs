@@ -1,4 +1,4 @@
-//! Reading the table.
+//! Reads `vectors.csv` back, line by line.
 
 use std::fs::File;
 use std::io;
@@ -18,9 +18,9 @@ pub struct TableRow {
     pub index: u64,
     /// Why the case was chosen, as a [`Kind`](crate::Kind) prints itself.
     pub kind: String,
-    /// The input.
+    /// The input: an address and an x.
     pub case: Case,
-    /// The output.
+    /// The expected output, and every register on the way.
     pub expected: Expected,
 }
 
@@ -50,10 +50,8 @@ pub fn read_table(path: &Path) -> Result<Vec<TableRow>, TableError> {
 /// Names the line and the column.
 pub fn read_columns(path: &Path, names: &[&str]) -> Result<Vec<Vec<i64>>, TableError> {
     let (mut reader, header) = open(path)?;
-    let columns: Vec<Column<'_>> = names
-        .iter()
-        .map(|name| Column::find(&header, name, path))
-        .collect::<Result<_, TableError>>()?;
+    let columns: Vec<Column<'_>> =
+        names.iter().map(|name| Column::find(&header, name, path)).collect::<Result<_, TableError>>()?;
     let line = |record: csv::Result<csv::StringRecord>| {
         let line = Line { path, record: record.map_err(|cause| in_file(path, cause))? };
         columns.iter().map(|&column| line.parsed(column, BITS)).collect()
@@ -129,11 +127,7 @@ impl Columns {
         Ok(TableRow {
             index: line.parsed(self.index, "a line number")?,
             kind: line.text(self.kind).to_owned(),
-            case: Case {
-                exponent,
-                address: line.parsed(self.address, "an address")?,
-                x: line.parsed(self.x, BITS)?,
-            },
+            case: Case { exponent, address: line.parsed(self.address, "an address")?, x: line.parsed(self.x, BITS)? },
             expected: Expected {
                 intensity: line.parsed(self.intensity, BITS)?,
                 status: line.parsed(self.status, "an integer of 4 bits")?,
@@ -152,11 +146,7 @@ impl Line<'_> {
         self.record.get(column.place).unwrap_or_default()
     }
 
-    fn parsed<T: FromStr>(
-        &self,
-        column: Column<'_>,
-        wanted: &'static str,
-    ) -> Result<T, TableError> {
+    fn parsed<T: FromStr>(&self, column: Column<'_>, wanted: &'static str) -> Result<T, TableError> {
         let text = self.text(column);
         text.parse().map_err(|_| TableError::Field {
             path: self.path.to_owned(),

@@ -1,11 +1,12 @@
-//! Writing the table.
+//! Writes `vectors.csv`: a header, then a line for each vector.
 
 use std::io::{self, Write};
 
-use hw_model::datapath::{Datapath, Register, Signals};
+use hw_model::datapath::{Datapath, RankRegister, Signals};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
 use hw_model::quantise::{decimal, real};
+use hw_model::registers::Register;
 
 use crate::case::Sample;
 use crate::reference::reference;
@@ -13,7 +14,7 @@ use crate::reference::reference;
 /// Writes `vectors.csv`, line by line.
 pub struct TableWriter<'a, W: Write> {
     design: &'a Design,
-    columns: Vec<(usize, Register)>,
+    columns: Vec<(usize, RankRegister)>,
     csv: csv::Writer<W>,
     line: csv::StringRecord,
 }
@@ -38,7 +39,7 @@ impl<'a, W: Write> TableWriter<'a, W> {
         self.line.clear();
         self.input_fields(index, sample);
         for (rank, register) in &self.columns {
-            let bits = (register.bits)(&passage[*rank]);
+            let bits = register.bits(&passage[*rank]);
             self.line.push_field(&bits.to_string());
             self.line.push_field(&hex(bits, register.format));
         }
@@ -91,33 +92,25 @@ impl<'a, W: Write> TableWriter<'a, W> {
 }
 
 /// The computed registers with their ranks, without those that show a port.
-fn register_columns(datapath: &Datapath) -> Vec<(usize, Register)> {
+fn register_columns(datapath: &Datapath) -> Vec<(usize, RankRegister)> {
     let last = datapath.rank_count() - 1;
-    let is_port = |rank, name| match name {
-        "x" => rank == 0,
-        "intensity" | "status" => rank == last,
+    let is_port = |rank, register| match register {
+        Register::X => rank == 0,
+        Register::Intensity | Register::Status => rank == last,
         _ => false,
     };
     let computed = |rank| {
         let registers = datapath.registers(rank).into_iter();
         registers
-            .filter(move |register| register.computed && !is_port(rank, register.name))
+            .filter(move |register| register.computed && !is_port(rank, register.register))
             .map(move |register| (rank, register))
     };
     (0..=last).flat_map(computed).collect()
 }
 
-fn header(datapath: &Datapath, columns: &[(usize, Register)]) -> Vec<String> {
+fn header(datapath: &Datapath, columns: &[(usize, RankRegister)]) -> Vec<String> {
     let input = ["index", "kind", "n", "address", "x_bits", "x_hex", "x_real"];
-    let output = [
-        "intensity_bits",
-        "intensity_hex",
-        "intensity_real",
-        "status",
-        "flags",
-        "reference",
-        "error_ulp",
-    ];
+    let output = ["intensity_bits", "intensity_hex", "intensity_real", "status", "flags", "reference", "error_ulp"];
     let mut header: Vec<String> = input.map(str::to_owned).into();
     for (rank, register) in columns {
         let name = datapath.register_name(*rank, register);

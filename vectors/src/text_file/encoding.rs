@@ -20,8 +20,7 @@ pub(super) fn foreign(beginning: &[u8]) -> Option<&'static str> {
 
 /// Our files begin with ASCII, of which UTF-16 has every other byte 0, and UTF-32 three of four.
 fn without_mark(beginning: &[u8]) -> Option<&'static str> {
-    let of_four: Vec<[bool; 4]> =
-        beginning.as_chunks::<4>().0.iter().map(|four| four.map(|byte| byte == 0)).collect();
+    let of_four: Vec<[bool; 4]> = beginning.as_chunks::<4>().0.iter().map(|four| four.map(|byte| byte == 0)).collect();
     let all = |wanted: [bool; 4]| !of_four.is_empty() && of_four.iter().all(|four| *four == wanted);
     if all([false, true, true, true]) {
         return Some("UTF-32LE");
@@ -30,9 +29,9 @@ fn without_mark(beginning: &[u8]) -> Option<&'static str> {
         return Some("UTF-32BE");
     }
     let pairs = beginning.as_chunks::<2>().0;
-    let (first, second) = pairs.iter().fold((0, 0), |(first, second), pair| {
-        (first + usize::from(pair[0] == 0), second + usize::from(pair[1] == 0))
-    });
+    let (first, second) = pairs
+        .iter()
+        .fold((0, 0), |(first, second), pair| (first + usize::from(pair[0] == 0), second + usize::from(pair[1] == 0)));
     // Some of the characters may be others.
     match (first, second) {
         (0, second) if 2 * second > pairs.len() => Some("UTF-16LE"),

@@ -40,51 +40,40 @@ impl TextKind {
     }
 }
 
-/// A configuration.
-pub const CONFIGURATION: TextKind = TextKind::whole(
-    "configuration",
-    16 * MIB,
-    "`blysk presets show NAME` prints a configuration to start from",
-);
+/// A configuration of a pipeline, as JSON.
+pub const CONFIGURATION: TextKind =
+    TextKind::whole("configuration", 16 * MIB, "`blysk presets show NAME` prints a configuration to start from");
 
-/// A scene.
-pub const SCENE: TextKind =
-    TextKind::whole("scene", 256 * MIB, "`blysk scene --schema` prints what a scene has");
+/// A scene, as JSON.
+pub const SCENE: TextKind = TextKind::whole("scene", 256 * MIB, "`blysk scene --schema` prints what a scene has");
 
 /// A mesh: only its numbers count, and its names may be Latin-1.
-pub const MESH: TextKind = TextKind {
-    lossy: true,
-    ..TextKind::whole("mesh", 512 * MIB, "it has no face; give at least one line `f a b c`")
-};
+pub const MESH: TextKind =
+    TextKind { lossy: true, ..TextKind::whole("mesh", 512 * MIB, "it has no face; give at least one line `f a b c`") };
 
-/// A certificate.
-pub const CERTIFICATE: TextKind =
-    TextKind::whole("certificate", 256 * MIB, "write the certificate again");
+/// A certificate of `blysk certify` or `blysk specialise`, as JSON.
+pub const CERTIFICATE: TextKind = TextKind::whole("certificate", 256 * MIB, "write the certificate again");
 
 /// The manifest of a bundle.
 pub const MANIFEST: TextKind = TextKind::whole("manifest", 16 * MIB, "write the bundle again");
 
 /// A memory image. An empty one is told by the words that it should have.
-pub const MEMORY: TextKind =
-    TextKind { most_line_bytes: 256 * MIB, ..TextKind::lines("memory file", 256 * MIB) };
+pub const MEMORY: TextKind = TextKind { most_line_bytes: 256 * MIB, ..TextKind::lines("memory file", 256 * MIB) };
 
 /// The table of a bundle, with every register of every vector.
 pub const VECTOR_TABLE: TextKind = TextKind::lines("table", 8 * GIB);
 
 /// What `blysk pareto` wrote.
-pub const PARETO_TABLE: TextKind =
-    TextKind::whole("table", 16 * MIB, "`blysk pareto --out DIR` writes pareto.csv");
+pub const PARETO_TABLE: TextKind = TextKind::whole("table", 16 * MIB, "`blysk pareto --out DIR` writes pareto.csv");
 
 /// What `make synth` wrote.
-pub const SYNTHESIS_TABLE: TextKind =
-    TextKind::whole("table", 16 * MIB, "`make synth` writes synth.csv");
+pub const SYNTHESIS_TABLE: TextKind = TextKind::whole("table", 16 * MIB, "`make synth` writes synth.csv");
 
-/// A stimulus file.
+/// A stimulus of `blysk simulate`, as CSV.
 pub const STIMULUS: TextKind = TextKind::lines("stimulus", 512 * MIB);
 
 /// Questions for the golden model, which are answered as they come.
-pub const QUESTIONS: TextKind =
-    TextKind { most_line_bytes: 4096, ..TextKind::lines("list of questions", 1 << 60) };
+pub const QUESTIONS: TextKind = TextKind { most_line_bytes: 4096, ..TextKind::lines("list of questions", 1 << 60) };
 
 /// A log of answers.
 pub const ANSWER_LOG: TextKind = TextKind::lines("log", 16 * GIB);

@@ -6,8 +6,10 @@
 //! | line ends CRLF or CR | they are read as LF |
 //! | UTF-16 or UTF-32, with a mark or without | refused, and named |
 //! | a byte of 0 | refused with its line: this is no text |
-//! | a byte that is not UTF-8 | refused with line and place, or read as `?` where only numbers count ([`TextKind::lossy`]) |
-//! | more bytes than its [`TextKind`] may have, or a longer line | refused as soon as they are read, whether they come from a file or a stream |
+//! | a byte that is not UTF-8 | refused with line and place, or read as `?` where only numbers count
+//! ([`TextKind::lossy`]) |
+//! | more bytes than its [`TextKind`] may have, or a longer line | refused as soon as they are read, whether they come
+//! from a file or a stream |
 //!
 //! [`read()`] gives a whole file, [`open()`] a reader for files that are larger than the memory.
 
@@ -23,8 +25,8 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 pub use kinds::{
-    ANSWER_LOG, CERTIFICATE, CONFIGURATION, MANIFEST, MEMORY, MESH, PARETO_TABLE, QUESTIONS,
-    REGISTER_LOG, SCENE, STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
+    ANSWER_LOG, CERTIFICATE, CONFIGURATION, MANIFEST, MEMORY, MESH, PARETO_TABLE, QUESTIONS, REGISTER_LOG, SCENE,
+    STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
 };
 pub(crate) use punctuation::why_other_count;
 pub use punctuation::{decimal_comma, foreign_separator};
@@ -52,12 +54,12 @@ pub enum TextProblem {
         /// The encoding, as `iconv` calls it.
         name: &'static str,
     },
-    /// Too many bytes.
+    /// The file has more bytes than its kind may have.
     #[error("it has more than the {most} bytes that are read of a {noun}")]
     Long {
         /// What the file is.
         noun: &'static str,
-        /// The most bytes.
+        /// The most bytes that its kind may have.
         most: u64,
     },
     /// A line with too many bytes.
@@ -81,7 +83,7 @@ pub enum TextProblem {
         line: u64,
         /// The place of the byte in its line, counted from 1.
         byte: u64,
-        /// The byte.
+        /// The value of the byte that is not UTF-8.
         value: u8,
     },
 }
@@ -140,9 +142,9 @@ impl From<TextProblem> for io::Error {
 pub struct TextError {
     /// What the file is.
     noun: &'static str,
-    /// The file.
+    /// The path of the file.
     path: PathBuf,
-    /// What is wrong.
+    /// What is wrong with its text.
     problem: TextProblem,
 }
 

@@ -13,9 +13,7 @@ pub fn foreign_separator(header: &str) -> Option<String> {
         text if text.contains('|') => "`|`",
         _ => return None,
     };
-    Some(format!(
-        "the fields are separated by {name}; separate them by `,`, and write numbers with a point"
-    ))
+    Some(format!("the fields are separated by {name}; separate them by `,`, and write numbers with a point"))
 }
 
 /// What may be the reason for another number of fields than there are columns.
@@ -25,8 +23,7 @@ pub(crate) fn why_other_count(fields: &[&str], columns: usize) -> String {
         return foreign.map_or_else(String::new, |said| format!(": {said}"));
     }
     let pairs = fields.iter().zip(fields.iter().skip(1));
-    let numbers: Vec<(&str, &str)> =
-        pairs.filter_map(|(whole, fraction)| halves(whole, fraction)).collect();
+    let numbers: Vec<(&str, &str)> = pairs.filter_map(|(whole, fraction)| halves(whole, fraction)).collect();
     // x is most often between 0 and 1.
     let likely = numbers.iter().find(|(whole, _)| matches!(*whole, "0" | "-0"));
     likely.or(numbers.last()).map_or_else(String::new, |(whole, fraction)| {
@@ -37,8 +34,7 @@ pub(crate) fn why_other_count(fields: &[&str], columns: usize) -> String {
 /// Two fields that may be one number with a decimal comma.
 fn halves<'a>(whole: &'a str, fraction: &'a str) -> Option<(&'a str, &'a str)> {
     let (whole, fraction) = (whole.trim_start_matches('"'), fraction.trim_end_matches('"'));
-    let are_digits =
-        |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    let are_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
     (are_digits(unsigned) && are_digits(fraction)).then_some((whole, fraction))
 }
@@ -62,7 +58,5 @@ pub fn decimal_comma(json: &str, error: &serde_json::Error) -> Option<String> {
 fn is_between_digits(line: &str, place: usize) -> bool {
     let at = |place: Option<usize>| place.and_then(|place| line.as_bytes().get(place));
     let is_digit = |place| at(place).is_some_and(u8::is_ascii_digit);
-    at(Some(place)) == Some(&b',')
-        && is_digit(place.checked_sub(1))
-        && is_digit(place.checked_add(1))
+    at(Some(place)) == Some(&b',') && is_digit(place.checked_sub(1)) && is_digit(place.checked_add(1))
 }

@@ -2,6 +2,8 @@
 
 use std::io::{self, BufRead, Read};
 
+use memchr::{memchr_iter, memchr2, memrchr};
+
 use super::encoding::{BEGINNING, UTF8_MARK, foreign};
 use super::{TextKind, TextProblem};
 
@@ -58,7 +60,32 @@ impl<R: Read> TextReader<R> {
         let looked_at = self.check_utf8()?;
         let rest = self.raw.split_off(looked_at);
         let text = std::mem::replace(&mut self.raw, rest);
+        if self.is_plain(&text) {
+            self.count(&text);
+            self.ready = text;
+            return Ok(());
+        }
         self.hand_on(&text)
+    }
+
+    /// Whether [`hand_on`](Self::hand_on) would find nothing wrong with this text, and nothing to change.
+    fn is_plain(&self, text: &[u8]) -> bool {
+        let most = self.kind.most_line_bytes;
+        // A line ends in every stretch as long as a line may be, the first of which began before this text.
+        let (mut rest, mut room) = (text, most.saturating_sub(self.column));
+        while rest.len() as u64 > room {
+            let stretch = rest.get(..=room as usize).unwrap_or(rest);
+            let Some(end) = memrchr(b'\n', stretch) else { return false };
+            (rest, room) = (rest.get(end + 1..).unwrap_or_default(), most);
+        }
+        !self.after_return && memchr2(b'\r', 0, text).is_none()
+    }
+
+    /// Goes on to where this text ends.
+    fn count(&mut self, text: &[u8]) {
+        self.line += memchr_iter(b'\n', text).count() as u64;
+        let last = memrchr(b'\n', text);
+        self.column = last.map_or(self.column + text.len() as u64, |end| (text.len() - end - 1) as u64);
     }
 
     fn read_more(&mut self) -> Result<(), TextProblem> {
@@ -154,8 +181,8 @@ impl<R: Read> TextReader<R> {
     }
 }
 
-/// Whether a line of ASCII is there, which no other encoding begins with: it is enough, as who writes a line and waits for
-/// an answer writes no more.
+/// Whether a line of ASCII is there, which no other encoding begins with: it is enough, as who writes a line and waits
+/// for an answer writes no more.
 fn is_plain_line(beginning: &[u8]) -> bool {
     let text = beginning.strip_prefix(UTF8_MARK).unwrap_or(beginning);
     text.len() >= 4 && text.contains(&b'\n') && text.is_ascii() && !text.contains(&0)

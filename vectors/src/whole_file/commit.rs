@@ -39,12 +39,7 @@ impl Journal {
         step()?;
         file.rename(target).map_err(|(_, error)| error)?;
         let target = target.to_owned();
-        self.0.push(
-            old.map_or_else(
-                || Step::Made(target.clone()),
-                |old| Step::Replaced(target.clone(), old),
-            ),
-        );
+        self.0.push(old.map_or_else(|| Step::Made(target.clone()), |old| Step::Replaced(target.clone(), old)));
         Ok(())
     }
 
@@ -57,9 +52,7 @@ impl Journal {
                 self.0.push(Step::MadeDirectory(target.to_owned()));
                 Ok(())
             }
-            Err((directory, error)) if target.is_dir() => {
-                self.put_below(directory.path(), target, error)
-            }
+            Err((directory, error)) if target.is_dir() => self.put_below(directory.path(), target, error),
             Err((_, error)) => Err(error),
         }
     }
@@ -94,9 +87,7 @@ impl Journal {
             }
             Step::Replaced(path, old) => match old.rename(&path) {
                 Ok(()) => cause,
-                Err((old, _)) => {
-                    OutputError::NotUndone { cause: Box::new(cause), path, aside: old.leave() }
-                }
+                Err((old, _)) => OutputError::NotUndone { cause: Box::new(cause), path, aside: old.leave() },
             },
         })
     }

@@ -12,7 +12,7 @@ pub enum OutputError {
     /// The directory could not be made, or is something else.
     #[error("cannot use the directory {}: {cause}; {}", path.display(), advice(cause))]
     Directory {
-        /// The directory.
+        /// The path of the directory.
         path: PathBuf,
         /// What the system said.
         cause: io::Error,
@@ -34,9 +34,9 @@ pub enum OutputError {
         path.display(), to.display()
     )]
     Dangling {
-        /// The link.
+        /// The path of the link.
         path: PathBuf,
-        /// What it says.
+        /// The path that the link leads to, where there is nothing.
         to: PathBuf,
     },
     /// The path has no file name, or the name of a file in a set has directories in it.
@@ -48,9 +48,9 @@ pub enum OutputError {
         path.display(), input.display()
     )]
     Input {
-        /// The output.
+        /// The path of the output.
         path: PathBuf,
-        /// The input.
+        /// The path of the input that the output would write over.
         input: PathBuf,
     },
     /// Two outputs are one file.
@@ -78,12 +78,8 @@ fn shown(path: &Path) -> String {
 
 fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
-        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
-            "choose a place that you may write to"
-        }
-        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
-            "free some space or choose another place"
-        }
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => "choose a place that you may write to",
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "free some space or choose another place",
         ErrorKind::NotADirectory | ErrorKind::AlreadyExists | ErrorKind::DirectoryNotEmpty => {
             "a file is in the way: choose another name or move it"
         }

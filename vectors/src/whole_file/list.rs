@@ -15,7 +15,7 @@ pub enum ListError {
     /// There is no list, so that nothing says which files belong together.
     #[error("the set is incomplete: cannot read {}: {cause}; write the set again", path.display())]
     NoList {
-        /// The list.
+        /// The path of the list.
         path: PathBuf,
         /// What the system said.
         cause: io::Error,
@@ -26,7 +26,7 @@ pub enum ListError {
         path.display()
     )]
     Line {
-        /// The list.
+        /// The path of the list.
         path: PathBuf,
         /// The line, from 1.
         line: usize,
@@ -34,7 +34,7 @@ pub enum ListError {
     /// A file of the set is missing or cannot be read.
     #[error("the set is incomplete: cannot read {}: {cause}; write the set again", path.display())]
     Missing {
-        /// The file.
+        /// The path of the file that is missing.
         path: PathBuf,
         /// What the system said.
         cause: io::Error,
@@ -45,13 +45,13 @@ pub enum ListError {
          {expected}; write the set again", path.display(), list.display()
     )]
     Differs {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The list.
+        /// The path of the list.
         list: PathBuf,
-        /// Its checksum.
+        /// The SHA-256 of the file as it is.
         found: String,
-        /// The list's.
+        /// The SHA-256 that the list has.
         expected: String,
     },
 }
@@ -143,8 +143,7 @@ mod tests {
     #[test]
     fn what_is_no_line_is_refused() {
         let sha256 = "0".repeat(64);
-        for text in ["", "0  a", &sha256, &format!("{sha256} a"), &format!("{sha256}  /etc/passwd")]
-        {
+        for text in ["", "0  a", &sha256, &format!("{sha256} a"), &format!("{sha256}  /etc/passwd")] {
             assert_eq!(read(text), None, "{text}");
         }
         assert_eq!(read(&format!("{sha256}  ../a")), None);

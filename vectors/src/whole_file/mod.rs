@@ -1,8 +1,8 @@
 //! Files that are written whole or not at all, alone or as one set.
 //!
 //! **A set is committed as one.** A set is every file that one command writes into its directory, those of
-//! sub-directories too. Until [`OutputSet::commit`] nothing of it is to be seen: contents are in temporary files, hidden
-//! and beside the files' places (the same file system, so that a rename is atomic).
+//! sub-directories too. Until [`OutputSet::commit`] nothing of it is to be seen: contents are in temporary files,
+//! hidden and beside the files' places (the same file system, so that a rename is atomic).
 //!
 //! - A directory that does not exist is built whole under a temporary name and renamed: one atomic step.
 //! - In a directory that exists other people's files may stand. It cannot be exchanged as a whole without touching

@@ -67,10 +67,7 @@ impl OutputSet {
     ///
     /// # Errors
     /// As [`create`](Self::create).
-    pub fn apart_from(
-        inputs: &[PathBuf],
-        directory: impl AsRef<Path>,
-    ) -> Result<Self, OutputError> {
+    pub fn apart_from(inputs: &[PathBuf], directory: impl AsRef<Path>) -> Result<Self, OutputError> {
         let directory = match directory.as_ref() {
             path if path.as_os_str().is_empty() => PathBuf::from("."),
             path => path.to_owned(),
@@ -93,10 +90,7 @@ impl OutputSet {
     ///
     /// # Errors
     /// When something that is not a regular file has such a name, or an input, or a directory cannot be written to.
-    pub fn expect<N: AsRef<str>>(
-        mut self,
-        names: impl IntoIterator<Item = N>,
-    ) -> Result<Self, OutputError> {
+    pub fn expect<N: AsRef<str>>(mut self, names: impl IntoIterator<Item = N>) -> Result<Self, OutputError> {
         let mut directories = BTreeSet::from([self.directory.clone()]);
         for name in names {
             let path = self.directory.join(name.as_ref());
@@ -112,22 +106,14 @@ impl OutputSet {
     /// The directory that files are begun in.
     #[must_use]
     pub fn directory(&self) -> PathBuf {
-        if self.below.is_empty() {
-            self.directory.clone()
-        } else {
-            self.directory.join(&self.below)
-        }
+        if self.below.is_empty() { self.directory.clone() } else { self.directory.join(&self.below) }
     }
 
     /// Lets `stage` write its files into a sub-directory.
     ///
     /// # Errors
     /// Those of `stage`.
-    pub fn within<T, E>(
-        &mut self,
-        name: &str,
-        stage: impl FnOnce(&mut Self) -> Result<T, E>,
-    ) -> Result<T, E> {
+    pub fn within<T, E>(&mut self, name: &str, stage: impl FnOnce(&mut Self) -> Result<T, E>) -> Result<T, E> {
         let above = self.below.len();
         self.below += name;
         self.below.push('/');

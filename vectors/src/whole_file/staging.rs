@@ -157,9 +157,7 @@ impl Staging {
         let real = regular(path)?;
         let Some(identity) = Identity::of(&real) else { return Ok(real) };
         match self.inputs.iter().find(|(_, input)| *input == identity) {
-            Some((input, _)) => {
-                Err(OutputError::Input { path: path.to_owned(), input: input.clone() })
-            }
+            Some((input, _)) => Err(OutputError::Input { path: path.to_owned(), input: input.clone() }),
             None => Ok(real),
         }
     }
@@ -171,10 +169,7 @@ impl Staging {
             return Err(OutputError::Twice(path.to_owned()));
         }
         // Text of the system about a temporary file would name it.
-        let write = |cause: io::Error| OutputError::Write {
-            path: path.to_owned(),
-            cause: cause.kind().into(),
-        };
+        let write = |cause: io::Error| OutputError::Write { path: path.to_owned(), cause: cause.kind().into() };
         let (file, place) = match self.directory(parent(&real))? {
             None => {
                 let (temporary, file) = Temporary::file(parent(&real)).map_err(write)?;
@@ -196,8 +191,7 @@ impl Staging {
     /// # Errors
     /// When there is no such directory, and it cannot be made.
     pub(super) fn directory(&mut self, path: &Path) -> Result<Option<PathBuf>, OutputError> {
-        let refused =
-            |kind: ErrorKind| OutputError::Directory { path: path.to_owned(), cause: kind.into() };
+        let refused = |kind: ErrorKind| OutputError::Directory { path: path.to_owned(), cause: kind.into() };
         if path.is_dir() {
             return Ok(None);
         }
@@ -235,10 +229,7 @@ impl Staging {
         if self.directory(path)?.is_some() {
             return Ok(());
         }
-        let refused = |cause: io::Error| OutputError::Directory {
-            path: path.to_owned(),
-            cause: cause.kind().into(),
-        };
+        let refused = |cause: io::Error| OutputError::Directory { path: path.to_owned(), cause: cause.kind().into() };
         Temporary::file(path).map(drop).map_err(refused)
     }
 

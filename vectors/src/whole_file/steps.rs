@@ -2,8 +2,8 @@
 
 use std::io;
 
-/// In builds with debug assertions, `BLYSK_ABORT_AT_STEP=k` ends the process before its k-th step, as a power cut would,
-/// and `BLYSK_FAIL_AT_STEP=k` makes that step fail. Other builds have none of it.
+/// In builds with debug assertions, `BLYSK_ABORT_AT_STEP=k` ends the process before its k-th step, as a power cut
+/// would, and `BLYSK_FAIL_AT_STEP=k` makes that step fail. Other builds have none of it.
 ///
 /// # Errors
 /// Where a test asks for it.

@@ -27,7 +27,7 @@ pub(super) struct Stream {
     closed: bool,
 }
 
-/// Whoever reads may stop: that is no error, and what comes after goes nowhere.
+/// The reader of a stream may stop: that is no error, and what comes after goes nowhere.
 impl Write for Stream {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.closed {
@@ -46,7 +46,7 @@ impl Write for Stream {
     }
 }
 
-/// Follows a path. A stream is opened, which for a named pipe waits until somebody reads it.
+/// Follows a path. A stream is opened, which for a named pipe waits until a reader opens it.
 pub(super) fn find(path: &Path) -> Result<Target, OutputError> {
     let stream = |file: io::Result<File>, standard_output| match file {
         Ok(file) => Ok(Target::Stream(Stream { file, standard_output, closed: false })),

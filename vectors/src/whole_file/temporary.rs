@@ -53,10 +53,7 @@ pub(super) struct Temporary(PathBuf);
 
 impl Temporary {
     /// `make` gets names until one is free.
-    fn make<T>(
-        directory: &Path,
-        make: impl FnMut(&Path) -> io::Result<T>,
-    ) -> io::Result<(Self, T)> {
+    fn make<T>(directory: &Path, make: impl FnMut(&Path) -> io::Result<T>) -> io::Result<(Self, T)> {
         let mut alive = lock(&ALIVE);
         let made = Builder::new().prefix(PREFIX).make_in(directory, make);
         // The text of an error would name a file by a name that is another one each time.
@@ -73,7 +70,7 @@ impl Temporary {
         Self::make(directory, |path| options.open(path))
     }
 
-    /// An empty directory.
+    /// A new, empty directory in `parent`, hidden and with a name of its own.
     pub(super) fn directory(parent: &Path) -> io::Result<Self> {
         Ok(Self::make(parent, |path| fs::create_dir(path))?.0)
     }
@@ -141,7 +138,7 @@ pub(super) fn parent(path: &Path) -> &Path {
     }
 }
 
-/// A directory for what nobody is to see, gone when it is dropped.
+/// A directory for files that are not output; it and they are gone when it is dropped.
 #[derive(Debug)]
 pub struct Scratch(Temporary);
 
@@ -154,7 +151,7 @@ impl Scratch {
         Temporary::directory(&std::env::temp_dir()).map(Self)
     }
 
-    /// The directory.
+    /// The path of the directory.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.0.path()

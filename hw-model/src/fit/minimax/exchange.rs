@@ -1,12 +1,12 @@
 //! Remez's exchange on one range of s.
 //!
-//! With s = start + L·w, 0 ≤ w ≤ 1, the cubic and E with p(w_i) − x^n(w_i) = ±E at alternating points
-//! follow from divided differences, which kill the cubic and leave E:
+//! With s = start + L·w, 0 ≤ w ≤ 1, the polynomial p of degree D and E with p(w_i) − x^n(w_i) = ±E at alternating
+//! points follow from divided differences, which kill the polynomial and leave E. The inner points are D:
 //!
 //! ```text
-//! first segment    p = 1 + w·g, g of degree 2, four points:  g(w_i) = z_i ± E/w_i,  z_i = (x^n − 1)/w_i
-//!                  E = −z[w1 … w4] / (±1/w)[w1 … w4]
-//! others           p of degree 3, five points:  E = −x^n[w0 … w4] / (±1)[w0 … w4]
+//! first segment    p = 1 + w·g, g of degree D − 1, D + 1 points:  g(w_i) = z_i ± E/w_i,  z_i = (x^n − 1)/w_i
+//!                  E = −z[w1 … w(D+1)] / (±1/w)[w1 … w(D+1)]
+//! others           p of degree D, D + 2 points:  E = −x^n[w0 … w(D+1)] / (±1)[w0 … w(D+1)]
 //! ```
 //!
 //! Then the inner points move to where the error turns, and so on until they stay. As the error is flat
@@ -14,6 +14,7 @@
 //! computed in 106 bits.
 
 use super::super::double_double::DoubleDouble;
+use crate::registers::{CUBIC, MAX_DEGREE};
 
 /// Rounds of exchange. Convergence is quadratic: 4 to 6 are enough for any n and range.
 const ROUNDS: usize = 24;
@@ -28,21 +29,75 @@ pub struct Alternation {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The best cubic on a range.
+/// Coefficients from the constant term up; those above the degree are 0.
+pub(super) type Terms<T> = [T; MAX_DEGREE + 1];
+
+/// The inner points of a polynomial of some degree, in w: as many as the degree.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Turns {
+    degree: usize,
+    w: [f64; MAX_DEGREE],
+}
+
+impl Turns {
+    /// The points as a list.
+    fn points(&self) -> &[f64] {
+        &self.w[..self.degree]
+    }
+
+    /// Every point, moved.
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { w: self.w.map(f), ..self }
+    }
+
+    /// Where the error of a polynomial with a free constant turns, if x^n is like its next power: T(D+1) of Chebyshev.
+    fn of_free(degree: usize) -> Self {
+        let mut w = [0.0; MAX_DEGREE];
+        if degree == CUBIC {
+            w[..CUBIC].copy_from_slice(&[0.146_446_609, 0.5, 0.853_553_391]);
+        } else {
+            for (turn, w) in w[..degree].iter_mut().enumerate() {
+                *w = 0.5 * (1.0 - extreme(degree, turn + 1));
+            }
+        }
+        Self { degree, w }
+    }
+
+    /// The same where the error is 0 at w = 0: T(D+1) from its first zero on.
+    fn of_fixed(degree: usize) -> Self {
+        let mut w = [0.0; MAX_DEGREE];
+        if degree == CUBIC {
+            w[..CUBIC].copy_from_slice(&[0.17, 0.55, 0.88]);
+        } else {
+            let zero = core_math::cos(std::f64::consts::FRAC_PI_2 / (degree + 1) as f64);
+            for (turn, w) in w[..degree].iter_mut().enumerate() {
+                *w = (zero - extreme(degree, turn + 1)) / (1.0 + zero);
+            }
+        }
+        Self { degree, w }
+    }
+}
+
+/// cos(π·i / (D + 1)): where T(D+1) has its extremes.
+fn extreme(degree: usize, index: usize) -> f64 {
+    core_math::cos(std::f64::consts::PI * index as f64 / (degree + 1) as f64)
+}
+
+/// The best polynomial on a range.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Best {
     exponent: f64,
     start: f64,
     end: f64,
     length: DoubleDouble,
-    /// Of 1, w, w², w³.
-    power: [DoubleDouble; 4],
+    /// Of 1, w, w², …
+    power: Terms<DoubleDouble>,
     /// The inner points, in w.
-    turns: [f64; 3],
+    turns: Turns,
     /// Whether w = 0 is one of the points.
     free: bool,
-    /// c0, c1, c2, c3 of c0 − v·(c1 − v·(c2 − v·c3)), v = s − start.
-    pub c: [DoubleDouble; 4],
+    /// c0, c1, c2, … of c0 − v·(c1 − v·(c2 − …)), v = s − start.
+    pub c: Terms<DoubleDouble>,
     /// The greatest magnitude of the error; infinite on a range too long for the exchange (a segment that
     /// would reach to σ in the millions).
     pub error: f64,
@@ -53,29 +108,28 @@ pub(super) struct Best {
 pub(super) enum Digits {
     /// Those of an f64, while hand-over points are looked for.
     Rough,
-    /// 32.
+    /// 32 digits, for the coefficients themselves.
     Full,
 }
 
-/// The best cubic with f = 1 at s = 0, for 0 ≤ s ≤ `end`. `near` is a similar one, where there is one: its
-/// points are a better guess than none.
-pub(super) fn first(exponent: f64, end: DoubleDouble, digits: Digits, near: Option<&Best>) -> Best {
-    let problem =
-        Problem { exponent, start: 0.0, end: end.to_f64(), length: end, free: false, digits };
-    exchange(problem, near.map_or([0.17, 0.55, 0.88], |near| near.turns))
+/// The best polynomial of a degree with f = 1 at s = 0, for 0 ≤ s ≤ `end`. `near` is a similar one, where there is
+/// one: its points are a better guess than none.
+pub(super) fn first(exponent: f64, degree: usize, end: DoubleDouble, digits: Digits, near: Option<&Best>) -> Best {
+    let problem = Problem { exponent, start: 0.0, end: end.to_f64(), length: end, free: false, digits };
+    exchange(problem, near.map_or_else(|| Turns::of_fixed(degree), |near| near.turns))
 }
 
-/// The best cubic for `start` ≤ s ≤ `end`.
+/// The best polynomial of a degree for `start` ≤ s ≤ `end`.
 pub(super) fn further(
     exponent: f64,
+    degree: usize,
     (start, end): (f64, f64),
     digits: Digits,
     near: Option<&Best>,
 ) -> Best {
     let length = DoubleDouble::from(end) - DoubleDouble::from(start);
     let problem = Problem { exponent, start, end, length, free: true, digits };
-    // Where T4 turns.
-    exchange(problem, near.map_or([0.146_446_609, 0.5, 0.853_553_391], |near| near.turns))
+    exchange(problem, near.map_or_else(|| Turns::of_free(degree), |near| near.turns))
 }
 
 #[derive(Clone, Copy)]
@@ -120,44 +174,43 @@ impl Problem {
         (value, slope, (1.0 - self.exponent) * length * slope / (1.0 - s))
     }
 
-    /// The cubic whose error is ±E at the points, as powers of w, and E (with its sign at the first turn).
-    fn levelled(&self, turns: [f64; 3]) -> ([DoubleDouble; 4], DoubleDouble) {
+    /// The polynomial whose error is ±E at the points, as powers of w, and E (with its sign at the first turn).
+    fn levelled(&self, turns: Turns) -> (Terms<DoubleDouble>, DoubleDouble) {
         let one = DoubleDouble::ONE;
-        let [a, b, c] = turns;
+        let start = self.free.then_some(0.0);
+        let points: Vec<f64> = start.into_iter().chain(turns.points().iter().copied()).chain([1.0]).collect();
+        // The sign at the first turn is +, whether or not w = 0 is a point before it.
+        let signs = (0..points.len()).map(|i| if (i % 2 == 0) == self.free { -one } else { one });
         if self.free {
-            let points = [0.0, a, b, c, 1.0];
-            let signs = [-one, one, -one, one, -one];
-            let (values, error) = equal(points, points.map(|w| self.reference(w)), signs);
-            (newton(points, values), error)
+            let values = points.iter().map(|&w| self.reference(w)).collect();
+            let (values, error) = equal(&points, values, signs.collect());
+            (newton(&points, values, turns.degree), error)
         } else {
-            let points = [a, b, c, 1.0];
             let over = |value: DoubleDouble, w: f64| value / DoubleDouble::from(w);
-            let z = points.map(|w| over(self.reference(w) - one, w));
-            let signs = [one, -one, one, -one];
-            let signs = std::array::from_fn(|i| over(signs[i], points[i]));
-            let (values, error) = equal(points, z, signs);
-            let [g0, g1, g2, _] = newton(points, values);
-            ([one, g0, g1, g2], error)
+            let z = points.iter().map(|&w| over(self.reference(w) - one, w)).collect();
+            let signs = signs.zip(&points).map(|(sign, &w)| over(sign, w)).collect();
+            let (values, error) = equal(&points, z, signs);
+            let g = newton(&points, values, turns.degree);
+            let mut power = [DoubleDouble::from(0.0); MAX_DEGREE + 1];
+            power[0] = one;
+            power[1..=turns.degree].copy_from_slice(&g[..turns.degree]);
+            (power, error)
         }
     }
 }
 
 /// What the polynomial must be at each point: value + sign·E, with the E that makes its highest divided
 /// difference vanish.
-fn equal<const N: usize>(
-    points: [f64; N],
-    values: [DoubleDouble; N],
-    signs: [DoubleDouble; N],
-) -> ([DoubleDouble; N], DoubleDouble) {
-    let highest = |of| divided(points, of)[N - 1];
-    let error = -highest(values) / highest(signs);
-    (std::array::from_fn(|i| values[i] + signs[i] * error), error)
+fn equal(points: &[f64], values: Vec<DoubleDouble>, signs: Vec<DoubleDouble>) -> (Vec<DoubleDouble>, DoubleDouble) {
+    let highest = |of: &[DoubleDouble]| divided(points, of.to_vec()).last().copied().unwrap_or(DoubleDouble::ONE);
+    let error = -highest(&values) / highest(&signs);
+    (values.into_iter().zip(signs).map(|(value, sign)| value + sign * error).collect(), error)
 }
 
 /// Divided differences over the first point, the first two, and so on.
-fn divided<const N: usize>(points: [f64; N], mut values: [DoubleDouble; N]) -> [DoubleDouble; N] {
-    for order in 1..N {
-        for i in (order..N).rev() {
+fn divided(points: &[f64], mut values: Vec<DoubleDouble>) -> Vec<DoubleDouble> {
+    for order in 1..points.len() {
+        for i in (order..points.len()).rev() {
             let distance = DoubleDouble::from(points[i]) - DoubleDouble::from(points[i - order]);
             values[i] = (values[i] - values[i - 1]) / distance;
         }
@@ -165,13 +218,13 @@ fn divided<const N: usize>(points: [f64; N], mut values: [DoubleDouble; N]) -> [
     values
 }
 
-/// The coefficients of 1, w, w², w³ of the cubic through the values: Newton's form, multiplied out.
-fn newton<const N: usize>(points: [f64; N], values: [DoubleDouble; N]) -> [DoubleDouble; 4] {
+/// The coefficients of 1, w, w², … of the polynomial of a degree through the values: Newton's form, multiplied out.
+fn newton(points: &[f64], values: Vec<DoubleDouble>, degree: usize) -> Terms<DoubleDouble> {
     let differences = divided(points, values);
-    let mut power = [DoubleDouble::from(0.0); 4];
-    for i in (0..4.min(N)).rev() {
+    let mut power = [DoubleDouble::from(0.0); MAX_DEGREE + 1];
+    for i in (0..(degree + 1).min(points.len())).rev() {
         let at = DoubleDouble::from(points[i]);
-        for k in (1..4).rev() {
+        for k in (1..=degree).rev() {
             power[k] = power[k - 1] - at * power[k];
         }
         power[0] = differences[i] - at * power[0];
@@ -184,7 +237,7 @@ const UNSEEN: f64 = 1e-14;
 /// Halvings of the range in search of a guess.
 const SHORTENINGS: u32 = 60;
 
-fn exchange(problem: Problem, guess: [f64; 3]) -> Best {
+fn exchange(problem: Problem, guess: Turns) -> Best {
     let settled = problem.settled(guess, SHORTENINGS);
     let turns = settled.unwrap_or(guess);
     let (power, error) = problem.levelled(turns);
@@ -198,7 +251,7 @@ fn exchange(problem: Problem, guess: [f64; 3]) -> Best {
 impl Problem {
     /// The inner points. On a range so long that a guess leads nowhere, those of a shorter one are a better
     /// guess.
-    fn settled(&self, guess: [f64; 3], shortenings: u32) -> Option<[f64; 3]> {
+    fn settled(&self, guess: Turns, shortenings: u32) -> Option<Turns> {
         let rough = Self { digits: Digits::Rough, ..*self };
         rough.exchanged(guess).or_else(|| {
             let length = self.length * DoubleDouble::from(0.5);
@@ -208,14 +261,15 @@ impl Problem {
         })
     }
 
-    fn exchanged(&self, mut turns: [f64; 3]) -> Option<[f64; 3]> {
+    fn exchanged(&self, mut turns: Turns) -> Option<Turns> {
         for _ in 0..ROUNDS {
             let (power, error) = self.levelled(turns);
             if error.to_f64().abs() < UNSEEN {
                 break;
             }
             let next = self.turning_points(power, turns)?;
-            let moved = (0..3).map(|i| (next[i] - turns[i]).abs()).fold(0.0, f64::max);
+            let pairs = next.points().iter().zip(turns.points());
+            let moved = pairs.map(|(next, last)| (next - last).abs()).fold(0.0, f64::max);
             turns = next;
             // The next move would be of the size of this one's square.
             if moved * moved < SETTLED {
@@ -228,36 +282,40 @@ impl Problem {
 
 impl Problem {
     /// Where the error turns next to each of these points.
-    fn turning_points(&self, power: [DoubleDouble; 4], turns: [f64; 3]) -> Option<[f64; 3]> {
+    fn turning_points(&self, power: Terms<DoubleDouble>, turns: Turns) -> Option<Turns> {
         let rough = Rough { problem: *self, power: power.map(DoubleDouble::to_f64) };
         rough.turns_near(turns).or_else(|| rough.turns_between_zeros(turns))
     }
 }
 
-/// The error of a cubic and its slopes against w, in f64.
+/// The error of a polynomial and its slopes against w, in f64.
 struct Rough {
     problem: Problem,
-    power: [f64; 4],
+    power: Terms<f64>,
 }
 
 impl Rough {
     fn error(&self, w: f64) -> f64 {
-        let [p0, p1, p2, p3] = self.power;
-        p0 + w * (p1 + w * (p2 + w * p3)) - self.problem.rough(w).0
+        horner(&self.power, |term, _| term, w) - self.problem.rough(w).0
     }
 
     /// The first and the second slope.
     fn slopes(&self, w: f64) -> (f64, f64) {
-        let [_, p1, p2, p3] = self.power;
         let (_, first, second) = self.problem.rough(w);
-        (p1 + w * (2.0 * p2 + w * (3.0 * p3)) - first, 2.0 * p2 + w * (6.0 * p3) - second)
+        let [_, slope @ ..] = &self.power;
+        let [_, _, bend @ ..] = &self.power;
+        (
+            horner(slope, |term, i| (i + 1.0) * term, w) - first,
+            horner(bend, |term, i| (i + 2.0) * (i + 1.0) * term, w) - second,
+        )
     }
 
     /// By Newton's method; none where it leaves the neighbourhood of a point.
-    fn turns_near(&self, turns: [f64; 3]) -> Option<[f64; 3]> {
+    fn turns_near(&self, turns: Turns) -> Option<Turns> {
         const STEPS: usize = 8;
-        let mut found = turns;
-        for i in 0..3 {
+        let mut moved = turns;
+        let (turns, found) = (turns.points(), &mut moved.w);
+        for i in 0..turns.len() {
             let before = if i == 0 { 0.0 } else { turns[i - 1] };
             let after = turns.get(i + 1).copied().unwrap_or(1.0);
             let (low, high) = (0.6 * turns[i] + 0.4 * before, 0.6 * turns[i] + 0.4 * after);
@@ -279,28 +337,35 @@ impl Rough {
                 return None;
             }
         }
-        Some(found)
+        Some(moved)
     }
 
     /// Between the zeros, of which one lies between any two points. None where rounding hides them: the
     /// error is then nothing but rounding.
-    fn turns_between_zeros(&self, [a, b, c]: [f64; 3]) -> Option<[f64; 3]> {
+    fn turns_between_zeros(&self, turns: Turns) -> Option<Turns> {
         // The zeros only part the turning points.
         let zero = |low, high| root(|w| self.error(w), (low, high), 1e-3);
-        let before = if self.problem.free { zero(0.0, a)? } else { 0.0 };
-        let zeros = [before, zero(a, b)?, zero(b, c)?, zero(c, 1.0)?];
-        let turn = |i: usize| root(|w| self.slopes(w).0, (zeros[i], zeros[i + 1]), 0.1 * SETTLED);
-        Some([turn(0)?, turn(1)?, turn(2)?])
+        let points = turns.points();
+        let mut before = if self.problem.free { zero(0.0, points[0])? } else { 0.0 };
+        let mut found = turns;
+        for (i, turn) in found.w[..turns.degree].iter_mut().enumerate() {
+            let after = zero(points[i], points.get(i + 1).copied().unwrap_or(1.0))?;
+            *turn = root(|w| self.slopes(w).0, (before, after), 0.1 * SETTLED)?;
+            before = after;
+        }
+        Some(found)
     }
+}
+
+/// Σ weight(term_i, i)·w^i by Horner's rule.
+fn horner(terms: &[f64], weight: impl Fn(f64, f64) -> f64, w: f64) -> f64 {
+    let weighted = terms.iter().enumerate().map(|(i, &term)| weight(term, i as f64));
+    weighted.rev().fold(0.0, |sum, term| term + w * sum)
 }
 
 /// The zero of a function between two points where its signs differ (regula falsi, Illinois); none where
 /// they do not. `close` is the part of the greater end to which it is found.
-pub(super) fn root(
-    mut f: impl FnMut(f64) -> f64,
-    (low, high): (f64, f64),
-    close: f64,
-) -> Option<f64> {
+pub(super) fn root(mut f: impl FnMut(f64) -> f64, (low, high): (f64, f64), close: f64) -> Option<f64> {
     const STEPS: usize = 100;
     let (mut low, mut high, mut last) = (low, high, f64::NAN);
     let (mut at_low, mut at_high) = (f(low), f(high));
@@ -350,27 +415,23 @@ impl Best {
         self.length.to_f64()
     }
 
-    fn new(
-        problem: Problem,
-        power: [DoubleDouble; 4],
-        turns: [f64; 3],
-        error: DoubleDouble,
-    ) -> Self {
+    fn new(problem: Problem, power: Terms<DoubleDouble>, turns: Turns, error: DoubleDouble) -> Self {
         let Problem { exponent, start, end, length, free, .. } = problem;
         let (square, cube) = (length * length, length * length * length);
-        let [p0, p1, p2, p3] = power;
-        let c = [p0, -(p1 / length), p2 / square, -(p3 / cube)];
+        let [p0, p1, p2, p3, p4] = power;
+        let c = [p0, -(p1 / length), p2 / square, -(p3 / cube), p4 / (square * square)];
         Self { exponent, start, end, length, power, turns, free, c, error: error.to_f64().abs() }
     }
 
-    /// The points, with the error that the cubic has there before its coefficients are rounded.
+    /// The points, with the error that the polynomial has there before its coefficients are rounded.
     pub fn alternation(&self) -> Alternation {
         let start = self.free.then_some(0.0);
-        let points = start.into_iter().chain(self.turns).chain([1.0]).map(|w| {
+        let points = start.into_iter().chain(self.turns.points().iter().copied()).chain([1.0]).map(|w| {
             let s = DoubleDouble::from(self.start) + self.length * DoubleDouble::from(w);
             let w = DoubleDouble::from(w);
-            let [p0, p1, p2, p3] = self.power;
-            let error = p0 + w * (p1 + w * (p2 + w * p3)) - reference(self.exponent, s);
+            let zero = DoubleDouble::from(0.0);
+            let value = self.power.iter().rev().fold(zero, |sum, &term| term + w * sum);
+            let error = value - reference(self.exponent, s);
             (s.to_f64(), error.to_f64())
         });
         Alternation { points: points.collect() }

@@ -1,29 +1,30 @@
-//! The cubics whose greatest error is least.
+//! The polynomials whose greatest error is least.
 //!
 //! \[Rom\]'s cubics pass through given points. These give that up for the least greatest error over a range of
-//! x: f(1) = 1 alone is kept, so the first segment still has three coefficients. On the epicentre that
-//! is 88 times less error than `hermite` for n = 128.
+//! x: f(1) = 1 alone is kept, so the first segment of degree D has D coefficients left. For D = 3 that is 88 times
+//! less error on the epicentre than `hermite` has for n = 128.
 //!
-//! **What makes it the least** (Chebyshev). 1 − s·(k1 − s·(k2 − s·k3)) has three free coefficients, and
-//! s, s², s³ vanish together at s = 0 only. So the error is least when it reaches its greatest
-//! magnitude at four points, with alternating signs (`exchange`). A segment further down has a free
-//! constant term, and five such points. The fourth derivative of x^n never changes its sign on (0, 1), so the
-//! error has three turning points and no more: they are three of the points, and the ends of the range are
+//! **What makes it the least** (Chebyshev). 1 − s·(k1 − s·(k2 − …)) has D free coefficients, and
+//! s, s², … vanish together at s = 0 only. So the error is least when it reaches its greatest
+//! magnitude at D + 1 points, with alternating signs (`exchange`). A segment further down has a free
+//! constant term, and D + 2 such points. The derivative of x^n of order D + 1 never changes its sign on (0, 1), so
+//! the error has D turning points and no more: they are D of the points, and the ends of the range are
 //! the others.
 //!
 //! **Segments** (`segments`). The hand-over points are where every segment has the same greatest
 //! error E. Then neighbours agree there of themselves: the error has the same sign at both ends of every
-//! segment but the first, and at the end of the first, so both sides are x^n ∓ E. Where the range is not
-//! given, it ends where x^n = E: what is put to zero below adds no greater error, and the last segment, which
-//! ends at x^n − E, meets that zero without a jump.
+//! segment but the first, and at the end of the first, so both sides are x^n ∓ E. That is so for an odd D; of an
+//! even D a segment ends at x^n + E and the next begins at x^n − E. Where the range is not given, it ends where x^n =
+//! E: what is put to zero below adds no greater error, and the last segment, which for D = 3 ends at x^n − E, meets
+//! that zero without a jump.
 //!
-//! Between n = 2 and 3 the fourth derivative is negative: all the same with the signs exchanged, but for the
-//! last end, which is 2E high there (E is at most 0.1 % for one segment).
+//! Between n = D − 1 and D the derivative has the other sign: all the same with the signs exchanged, but for the
+//! last end, which is 2E high there (for D = 3, E is at most 0.1 % for one segment).
 
 mod exchange;
 mod segments;
 
-use exchange::Digits;
+use exchange::{Digits, Terms};
 
 pub use exchange::Alternation;
 pub use segments::{Fitted, Range, segments};
@@ -33,6 +34,7 @@ use super::assemble;
 use super::crossing::WideCrossing;
 use super::double_double::DoubleDouble;
 use crate::highlight::Cubic;
+use crate::registers::{CUBIC, MAX_DEGREE};
 
 /// The best cubic with f(1) = 1 for x ≥ q, and where its error is greatest.
 ///
@@ -41,15 +43,31 @@ pub(super) fn minimax(exponent: f64, at_q: &WideCrossing) -> (Cubic, Option<Alte
     if let Some(monomial) = assemble::monomial(exponent, &[1, 2, 3]) {
         return (monomial, None);
     }
-    let best = exchange::first(exponent, at_q.s, Digits::Full, None);
-    (cubic(best.c), Some(best.alternation()))
+    let best = exchange::first(exponent, CUBIC, at_q.s, Digits::Full, None);
+    let ([_, k1, k2, k3, _], [d, c, b, a, _]) = (best.c, power_form(&best.c));
+    (assemble::rounded([k1, k2, k3], [a, b, c, d]), Some(best.alternation()))
 }
 
-/// Both forms of 1 − s·(k1 − s·(k2 − s·k3)): a = k3, b = k2 − 3k3, c = k1 − 2k2 + 3k3, d = 1 − k1 + k2 − k3.
-fn cubic([_, k1, k2, k3]: [DoubleDouble; 4]) -> Cubic {
-    let (two, three) = (DoubleDouble::from(2.0), DoubleDouble::from(3.0));
-    let power = [k3, k2 - three * k3, k1 - two * k2 + three * k3, DoubleDouble::ONE - k1 + k2 - k3];
-    assemble::rounded([k1, k2, k3], power)
+/// c0 − s·(c1 − s·(c2 − …)) in powers of x = 1 − s: the coefficient of x^j is Σ (−1)^(i − j)·(i over j)·c_i over i ≥ j.
+fn power_form(c: &Terms<DoubleDouble>) -> Terms<DoubleDouble> {
+    std::array::from_fn(|j| {
+        (j + 1..=MAX_DEGREE).fold(c[j], |sum, i| {
+            let term = DoubleDouble::from(f64::from(binomial(i, j))) * c[i];
+            if (i - j) % 2 == 0 { sum + term } else { sum - term }
+        })
+    })
+}
+
+/// i over j, for i ≤ 4.
+pub(crate) fn binomial(i: usize, j: usize) -> u32 {
+    (0..j).fold(1, |product, k| product * (i - k) as u32 / (k + 1) as u32)
+}
+
+/// The c of x^n = (1 − s)^n itself, where n is a whole number up to the degree.
+fn monomial(exponent: f64, degree: usize) -> Option<Terms<DoubleDouble>> {
+    let n = (1..=degree).find(|&n| n as f64 == exponent)?;
+    let of_power = |i: usize| if i <= n { f64::from(binomial(n, i)) } else { 0.0 };
+    Some(std::array::from_fn(|i| DoubleDouble::from(of_power(i))))
 }
 
 /// The points at which the best cubic with f(1) = 1 for x^n ≥ `level` has its greatest error; none for n = 1,

@@ -2,11 +2,11 @@
 
 use super::super::crossing::WideCrossing;
 use super::super::{FitError, checked};
-use super::cubic;
-use super::exchange::{self, Alternation, Best, Digits, root};
-use crate::fit::assemble;
+use super::exchange::{self, Alternation, Best, Digits, Terms, root};
+use super::{monomial, power_form};
 use crate::fit::double_double::DoubleDouble;
-use crate::highlight::{Cubic, Segment};
+use crate::highlight::Segment;
+use crate::registers::MAX_DEGREE;
 
 /// How far down the segments reach.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,10 +20,11 @@ pub enum Range {
 /// The segments of one exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// The first, with f(1) = 1.
-    pub first: Cubic,
-    /// The others, in the order of s; where one covers everything (n = 1, 2, 3), none.
-    pub further: Vec<Segment>,
+    /// The segments, in the order of s, the first with f(1) = 1; where one covers everything (an n of 1 up to the
+    /// degree), one.
+    pub segments: Vec<Segment>,
+    /// The first in powers of x, from the constant term up.
+    pub power: Terms<f64>,
     /// Where each ends, in s; the last end is that of the range.
     pub ends: Vec<f64>,
     /// The greatest error of all of them.
@@ -36,38 +37,30 @@ pub struct Fitted {
 const LEAST_ERROR: f64 = 1e-15;
 /// The greatest: one segment for everything has less.
 const GREATEST_ERROR: f64 = 0.5;
-/// `count` segments (1 to 16) of equal error.
+/// `count` segments (1 to 16) of one degree (1 to 4) and of equal error.
 ///
 /// # Errors
 /// When the exponent or the level is out of range.
-pub fn segments(exponent: f64, count: usize, range: Range) -> Result<Fitted, FitError> {
+pub fn segments(exponent: f64, degree: usize, count: usize, range: Range) -> Result<Fitted, FitError> {
     let exponent = checked(exponent)?;
+    let degree = degree.clamp(1, MAX_DEGREE);
     if let Range::Level(level) = range {
         crate::fit::crossing(exponent, level)?;
     }
-    if let Some(first) = assemble::monomial(exponent, &[1, 2, 3]) {
+    if let Some(c) = monomial(exponent, degree) {
         let end = match range {
             Range::Level(level) => WideCrossing::new(exponent, level).s.to_f64(),
             Range::Balanced => 1.0,
         };
         return Ok(Fitted {
-            first,
-            further: vec![],
+            segments: vec![Segment { start: 0.0, c: c.map(DoubleDouble::to_f64) }],
+            power: power_form(&c).map(DoubleDouble::to_f64),
             ends: vec![end],
             error: 0.0,
             alternations: vec![],
         });
     }
-    Ok(fitted(&equalised(exponent, count.clamp(1, 16), range)))
-}
-
-/// Segments with the least common error that still reach as far as they are to.
-fn equalised(exponent: f64, count: usize, range: Range) -> Vec<Best> {
-    let mut search = Search::new(exponent, count, range);
-    let (low, high) = (core_math::log(LEAST_ERROR), core_math::log(GREATEST_ERROR));
-    let log_error = rising_root(|log_error| search.beyond(log_error), low, high);
-    search.digits = Digits::Full;
-    search.chain(core_math::exp(log_error))
+    Ok(fitted(&Search::new(exponent, degree, count.clamp(1, 16), range).equalised()))
 }
 
 /// Where a rising function, infinite from somewhere on, is 0; the end it is nearest to where it is not.
@@ -97,9 +90,10 @@ fn rising_root(mut f: impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f6
 
 struct Search {
     exponent: f64,
+    degree: usize,
     count: usize,
     range: Range,
-    /// No segment goes further. Nobody asks for that, and an exchange on a range where x^n is all but a spike
+    /// No segment goes further. No configuration needs that, and an exchange on a range where x^n is all but a spike
     /// would not see it.
     far: f64,
     digits: Digits,
@@ -108,14 +102,22 @@ struct Search {
 }
 
 impl Search {
-    fn new(exponent: f64, count: usize, range: Range) -> Self {
+    /// Segments with the least common error that still reach as far as they are to.
+    fn equalised(mut self) -> Vec<Best> {
+        let (low, high) = (core_math::log(LEAST_ERROR), core_math::log(GREATEST_ERROR));
+        let log_error = rising_root(|log_error| self.beyond(log_error), low, high);
+        self.digits = Digits::Full;
+        self.chain(core_math::exp(log_error))
+    }
+
+    fn new(exponent: f64, degree: usize, count: usize, range: Range) -> Self {
         // Beyond the goal by e^4, so that the search sees it from both sides.
         let least = match range {
             Range::Level(level) => level,
             Range::Balanced => LEAST_ERROR,
         };
         let far = -core_math::expm1((core_math::log(least) - 4.0) / exponent);
-        Self { exponent, count, range, far, digits: Digits::Rough, last: vec![] }
+        Self { exponent, degree, count, range, far, digits: Digits::Rough, last: vec![] }
     }
 
     /// How near the error of a segment comes to its goal, as a part of itself.
@@ -130,8 +132,7 @@ impl Search {
     fn beyond(&mut self, log_error: f64) -> f64 {
         self.last = self.chain(core_math::exp(log_error));
         let end = self.last.last().map_or(0.0, end_of);
-        let sigma =
-            if end >= self.far { f64::INFINITY } else { -self.exponent * core_math::log1p(-end) };
+        let sigma = if end >= self.far { f64::INFINITY } else { -self.exponent * core_math::log1p(-end) };
         match self.range {
             Range::Level(level) => sigma + core_math::log(level),
             Range::Balanced => sigma + log_error,
@@ -141,8 +142,8 @@ impl Search {
     /// Segments one after the other, each as long as its error stays within `error`.
     fn chain(&self, error: f64) -> Vec<Best> {
         let mut chain: Vec<Best> = Vec::with_capacity(self.count);
-        // Of e^−σ, as long as the fourth root of the error.
-        let mut guess = 4.0 * error.sqrt().sqrt() / self.exponent;
+        // Of e^−σ, as long as the root of the error whose order is the degree's next.
+        let mut guess = 4.0 * self.root_of(error) / self.exponent;
         for index in 0..self.count {
             let start = chain.last().map_or(0.0, end_of);
             if start >= self.far {
@@ -150,7 +151,7 @@ impl Search {
             }
             let near = self.last.get(index);
             if let Some(near) = near {
-                guess = near.length() * (error / near.error).sqrt().sqrt();
+                guess = near.length() * self.root_of(error / near.error);
             }
             let best = self.longest(start, guess.min(0.5 * (self.far - start)), error, near);
             guess = best.length();
@@ -159,14 +160,24 @@ impl Search {
         chain
     }
 
-    /// The longest segment from `start` whose error is within `error`. The error grows with about the fourth
+    /// The root of order degree + 1: an error grows with about that power of the length.
+    fn root_of(&self, error: f64) -> f64 {
+        match self.degree {
+            1 => error.sqrt(),
+            2 => core_math::cbrt(error),
+            3 => error.sqrt().sqrt(),
+            _ => core_math::pow(error, 1.0 / (self.degree + 1) as f64),
+        }
+    }
+
+    /// The longest segment from `start` whose error is within `error`. The error grows with about the (degree + 1)-th
     /// power of the length, so that in logarithms a secant arrives at once.
     fn longest(&self, start: f64, guess: f64, error: f64, near: Option<&Best>) -> Best {
         const STEPS: usize = 60;
         let most = self.far - start;
         let goal = core_math::log(error);
         let excess = |best: &Best| core_math::log(best.error.max(f64::MIN_POSITIVE)) - goal;
-        let (mut length, mut slope) = (guess, 4.0);
+        let (mut length, mut slope) = (guess, (self.degree + 1) as f64);
         let (mut short, mut long) = (0.0, most);
         let mut last: Option<(f64, f64)> = None;
         let mut best = self.fit(start, start + length, near);
@@ -202,9 +213,9 @@ impl Search {
 
     fn fit(&self, start: f64, end: f64, near: Option<&Best>) -> Best {
         if start == 0.0 {
-            exchange::first(self.exponent, DoubleDouble::from(end), self.digits, near)
+            exchange::first(self.exponent, self.degree, DoubleDouble::from(end), self.digits, near)
         } else {
-            exchange::further(self.exponent, (start, end), self.digits, near)
+            exchange::further(self.exponent, self.degree, (start, end), self.digits, near)
         }
     }
 }
@@ -214,14 +225,11 @@ fn end_of(best: &Best) -> f64 {
 }
 
 fn fitted(chain: &[Best]) -> Fitted {
-    let first = chain.first().map_or_else(|| cubic([DoubleDouble::ONE; 4]), |best| cubic(best.c));
-    let further = chain
-        .iter()
-        .skip(1)
-        .map(|best| Segment { start: best.range().0, c: best.c.map(DoubleDouble::to_f64) });
+    let segment = |best: &Best| Segment { start: best.range().0, c: best.c.map(DoubleDouble::to_f64) };
+    let first = chain.first().map_or([DoubleDouble::from(0.0); MAX_DEGREE + 1], |best| best.c);
     Fitted {
-        first,
-        further: further.collect(),
+        segments: chain.iter().map(segment).collect(),
+        power: power_form(&first).map(DoubleDouble::to_f64),
         ends: chain.iter().map(end_of).collect(),
         error: chain.iter().map(|best| best.error).fold(0.0, f64::max),
         alternations: chain.iter().map(Best::alternation).collect(),

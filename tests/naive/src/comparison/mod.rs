@@ -4,16 +4,17 @@ mod rom;
 
 use std::fmt;
 
-use hw_model::datapath::{Block, Register};
+use hw_model::datapath::{Block, RankRegister};
 use hw_model::design::{Design, RealRow};
 use hw_model::format::QFormat;
+use hw_model::registers::Register;
 use num_bigint::BigInt;
 
 use crate::Naive;
 
 pub use rom::rom;
 
-/// What went wrong.
+/// The kinds of difference between the naive model and the golden one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A register holds something other than the naive model says.
@@ -33,7 +34,7 @@ pub enum Kind {
 /// One complaint, with everything needed to see it again.
 #[derive(Debug, Clone)]
 pub struct Complaint {
-    /// What went wrong.
+    /// The kind of difference.
     pub kind: Kind,
     /// Where, and the two values.
     pub text: String,
@@ -53,7 +54,7 @@ fn complain<T>(kind: Kind, text: String) -> Result<T, Complaint> {
 pub struct Comparison<'a> {
     design: &'a Design,
     naive: Naive<'a>,
-    registers: Vec<Vec<Register>>,
+    registers: Vec<Vec<RankRegister>>,
     block: Block,
 }
 
@@ -84,9 +85,7 @@ impl<'a> Comparison<'a> {
             let region = self.naive.answer(address, x).region;
             let of_block = (self.block.intensities[index], self.block.regions[index].name());
             if of_block != (intensity, region) {
-                let text = format!(
-                    "address {address}, x {x}: block {of_block:?}, ranks {intensity} {region}"
-                );
+                let text = format!("address {address}, x {x}: block {of_block:?}, ranks {intensity} {region}");
                 return complain(Kind::Block, text);
             }
             self.bound(address, x, intensity)?;
@@ -99,29 +98,25 @@ impl<'a> Comparison<'a> {
         let passage = self.design.datapath().passage(address, x);
         for (rank, (signals, registers)) in passage.iter().zip(&self.registers).enumerate() {
             for register in registers {
-                let bits = (register.bits)(signals);
+                let bits = register.bits(signals);
                 if !register.format.holds(bits.into()) {
-                    let text =
-                        format!("address {address}, x {x}, rank {rank}: {register:?} holds {bits}");
+                    let text = format!("address {address}, x {x}, rank {rank}: {register:?} holds {bits}");
                     return complain(Kind::Overflows, text);
                 }
             }
         }
         let golden = passage.last().copied().unwrap_or_default();
         let naive = self.naive.answer(address, x);
-        let mut values = vec![("intensity", golden.intensity, naive.intensity)];
+        let mut values = vec![(Register::Intensity, naive.intensity)];
         if let Some(lines) = naive.lines {
-            values.extend([
-                ("v", golden.v, lines.v),
-                ("t1", golden.t1, lines.t1),
-                ("t2", golden.t2, lines.t2),
-                ("t3", golden.t3, lines.t3),
-            ]);
+            values.push((Register::V, lines.v));
+            values.extend((1..).map(Register::T).zip(lines.t));
         }
-        values.extend(naive.divisor.map(|divisor| ("divisor", golden.division.divisor, divisor)));
-        for (name, golden, naive) in values {
+        values.extend(naive.divisor.map(|divisor| (Register::Divisor, divisor)));
+        for (register, naive) in values {
+            let golden = golden.get(register);
             if BigInt::from(golden) != naive {
-                let text = format!("address {address}, x {x}: {name} is {golden}, naively {naive}");
+                let text = format!("address {address}, x {x}: {register} is {golden}, naively {naive}");
                 return complain(Kind::Differs, text);
             }
         }
@@ -159,10 +154,7 @@ impl<'a> Comparison<'a> {
         let slack = 8.0 * (-53_f64).exp2() * size(row, s, x >= row.cut) / unit(output);
         let bound = self.design.bounds()[address as usize].total();
         if error > bound + slack {
-            let text = format!(
-                "n = {}, x {x}: {error} ulp off, bound {bound} ulp (f64 slack {slack:e})",
-                row.exponent
-            );
+            let text = format!("n = {}, x {x}: {error} ulp off, bound {bound} ulp (f64 slack {slack:e})", row.exponent);
             return complain(Kind::Bound, text);
         }
         Ok(())
@@ -171,16 +163,14 @@ impl<'a> Comparison<'a> {
 
 /// The sum of the magnitudes that meet in the row's real function at 1 − s.
 fn size(row: &RealRow, s: f64, above_cut: bool) -> f64 {
-    match (&row.polynomial, &row.tail) {
-        (Some(_), _) if above_cut && row.outer.is_some_and(|outer| s > outer.segment.start) => {
-            let c = row.outer.map_or([0.0; 4], |outer| outer.segment.c.map(f64::abs));
-            let v = s - row.outer.map_or(0.0, |outer| outer.segment.start);
-            // s itself is rounded, and moves the value by its slope.
-            c[0] + (v + s) * (c[1] + v * (c[2] + v * c[3]))
-        }
-        (Some(cubic), _) if above_cut => {
-            let k = &cubic.centred;
-            1.0 + s * (k.k1.abs() + s * (k.k2.abs() + s * k.k3.abs()))
+    let segment = row.segments.iter().rev().find(|segment| s > segment.polynomial.start);
+    match (segment.or(row.segments.first()), &row.tail) {
+        (Some(segment), _) if above_cut => {
+            let c = segment.polynomial.c.map(f64::abs);
+            let v = (s - segment.polynomial.start).abs();
+            // Where v is a difference, s itself is rounded, and moves the value by its slope.
+            let moved = if segment.polynomial.start > 0.0 { v + s } else { v };
+            c[0] + moved * (c[1] + v * (c[2] + v * (c[3] + v * c[4])))
         }
         (_, Some(rational)) => {
             let terms = rational.at_one.abs() + rational.b.abs() * s;

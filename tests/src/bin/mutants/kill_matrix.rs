@@ -16,16 +16,10 @@ struct Rate {
 }
 
 impl Rate {
-    fn of<'a>(
-        mutants: impl Iterator<Item = &'a Mutant>,
-        by: fn(&Mutant) -> Option<&String>,
-    ) -> Self {
+    fn of<'a>(mutants: impl Iterator<Item = &'a Mutant>, by: fn(&Mutant) -> Option<&String>) -> Self {
         mutants.filter(|mutant| mutant.fate(by(mutant)) != "equivalent").fold(
             Self::default(),
-            |Self { killed, all }, mutant| Self {
-                killed: killed + u64::from(by(mutant).is_some()),
-                all: all + 1,
-            },
+            |Self { killed, all }, mutant| Self { killed: killed + u64::from(by(mutant).is_some()), all: all + 1 },
         )
     }
 
@@ -118,22 +112,13 @@ impl Matrix {
     pub fn write(&self, path: &Path) -> Result<(), Failure> {
         let written = || -> csv::Result<()> {
             let mut csv = csv::Writer::from_path(path)?;
-            csv.write_record([
-                "preset",
-                "class",
-                "bundle",
-                "killed",
-                "equivalent",
-                "escaped",
-                "killed_percent",
-            ])?;
+            csv.write_record(["preset", "class", "bundle", "killed", "equivalent", "escaped", "killed_percent"])?;
             for ((preset, class, bundle), fates) in &self.cells {
                 let count = |fate| fates.get(fate).copied().unwrap_or(0);
                 let (killed, escaped) = (count("killed"), count("escaped"));
                 let rate = Rate { killed, all: killed + escaped };
                 // Where all are equivalent there is nothing to kill.
-                let percent =
-                    if rate.all == 0 { String::new() } else { format!("{:.2}", rate.percent()) };
+                let percent = if rate.all == 0 { String::new() } else { format!("{:.2}", rate.percent()) };
                 csv.write_record([
                     preset,
                     *class,

@@ -8,9 +8,7 @@ mod mutant;
 
 use std::process::ExitCode;
 
-use blysk_tests::rtl::mutants::{
-    Bench, HANDSHAKE, NETLIST, Outcome, class, edits, netlist, own_sources, preset, rom,
-};
+use blysk_tests::rtl::mutants::{Bench, HANDSHAKE, NETLIST, Outcome, class, edits, netlist, own_sources, preset, rom};
 use blysk_tests::rtl::simulators::{self, Simulator, repository};
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::design::Design;
@@ -83,10 +81,8 @@ impl Campaign<'_> {
         println!("{}: choosing vectors", self.name);
         let default = self.bundle(Strategy::Mixed)?;
         let smallest = self.bundle(Strategy::Compact)?;
-        let equivalent: Vec<Fault> =
-            smallest.compact().into_iter().flat_map(Compact::equivalent).collect();
-        let (default, smallest) =
-            (self.bench("default", &default)?, self.bench("compact", &smallest)?);
+        let equivalent: Vec<Fault> = smallest.compact().into_iter().flat_map(Compact::equivalent).collect();
+        let (default, smallest) = (self.bench("default", &default)?, self.bench("compact", &smallest)?);
         let mut mutants = self.rom(&default, &smallest, &equivalent)?;
         mutants.extend(self.edits(&default, &smallest, &equivalent)?);
         mutants.extend(self.netlist(&default, &smallest)?);
@@ -108,12 +104,7 @@ impl Campaign<'_> {
         }
     }
 
-    fn rom(
-        &self,
-        default: &Bench,
-        smallest: &Bench,
-        equivalent: &[Fault],
-    ) -> Result<Vec<Mutant>, Failure> {
+    fn rom(&self, default: &Bench, smallest: &Bench, equivalent: &[Fault]) -> Result<Vec<Mutant>, Failure> {
         let faults = rom::faults(self.design, SEED);
         println!("{}: {} wrong ROMs", self.name, faults.len());
         let by_default = rom::run(default, self.verilator, self.design, &faults)?;
@@ -126,12 +117,7 @@ impl Campaign<'_> {
     }
 
     /// Each edit is compiled on its own, in Icarus, which compiles fastest.
-    fn edits(
-        &self,
-        default: &Bench,
-        smallest: &Bench,
-        equivalent: &[Fault],
-    ) -> Result<Vec<Mutant>, Failure> {
+    fn edits(&self, default: &Bench, smallest: &Bench, equivalent: &[Fault]) -> Result<Vec<Mutant>, Failure> {
         let edits = edits::edits(self.design.datapath());
         println!("{}: {} wrong lines", self.name, edits.len());
         let run = |bench: &Bench| -> Result<Vec<Outcome>, Failure> {
@@ -165,8 +151,7 @@ impl Campaign<'_> {
         let datapath = self.design.datapath();
         let (directory, seconds) = (&default.directory, PROOF_SECONDS);
         let judged = netlist::judge(directory, datapath, &list, &survivors, seconds)?;
-        let known =
-            judged.into_iter().map(|judged| (NETLIST, judged.map_or(Known::Nothing, Known::from)));
+        let known = judged.into_iter().map(|judged| (NETLIST, judged.map_or(Known::Nothing, Known::from)));
         Ok(merge(known, by_default, by_compact))
     }
 }

@@ -1,10 +1,11 @@
 //! Mutants that are other lines of the RTL: the fault model, written into the sources.
 
 use hw_model::datapath::Datapath;
+use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::format::QFormat;
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
-use vectors::faults::{
-    DataRegister, Defect, Fault, HANDSHAKE, Logic, RoundingLine, pipeline_faults,
-};
+use vectors::faults::{Defect, Fault, HANDSHAKE, Logic, pipeline_faults};
 use vectors::rtl::rounding_number;
 
 use crate::rtl::{Failure, failed};
@@ -12,15 +13,15 @@ use crate::rtl::{Failure, failed};
 /// A change of one place of one file.
 #[derive(Debug, Clone)]
 pub struct Edit {
-    /// The fault's name.
+    /// The name of the fault, for tables.
     pub name: String,
     /// The fault of the model that this is; none where a vector on its own cannot show it.
     pub fault: Option<Fault>,
-    /// The file.
+    /// The name of the RTL file.
     pub file: &'static str,
     /// What stands there, once.
     pub right: String,
-    /// What it becomes.
+    /// The text that takes its place.
     pub wrong: String,
 }
 
@@ -44,9 +45,7 @@ pub fn edits(datapath: &Datapath) -> Vec<Edit> {
     let of_model = pipeline_faults(datapath).into_iter().filter_map(|fault| {
         let (file, right, wrong) = match fault {
             Fault::Rounding(line, mode) => rounding(datapath, line, mode),
-            Fault::Register(rank, register, defect) => {
-                self::register(datapath, rank, register, defect)?
-            }
+            Fault::Register(rank, register, defect) => self::register(datapath, rank, register, defect)?,
             Fault::Logic(logic) => self::logic(logic)?,
             Fault::Field(_) | Fault::Swap(_) => return None,
         };
@@ -61,42 +60,48 @@ fn change(file: &'static str, right: &str, wrong: &str) -> Change {
     (file, right.to_owned(), wrong.to_owned())
 }
 
-fn rounding(datapath: &Datapath, line: RoundingLine, mode: Rounding) -> Change {
+fn rounding(datapath: &Datapath, line: Register, mode: Rounding) -> Change {
     let (name, own) = match line {
-        RoundingLine::Variable => ("U", datapath.front_end().rounding()),
-        RoundingLine::Stage(0) => ("T1", datapath.stages().map(|s| s[0].rounding())),
-        RoundingLine::Stage(1) => ("T2", datapath.stages().map(|s| s[1].rounding())),
-        RoundingLine::Stage(_) => ("T3", datapath.stages().map(|s| s[2].rounding())),
-        RoundingLine::Divisor => ("DIVISOR", datapath.divider().map(|d| d.divisor.rounding())),
-        RoundingLine::Quotient => ("QUOTIENT", datapath.divider().map(|d| d.rounding)),
+        Register::T(stage) => return stage_rounding(datapath, stage, mode),
+        Register::V => ("U", datapath.front_end().rounding()),
+        Register::Divisor => ("DIVISOR", datapath.divider().map(|d| d.divisor.rounding())),
+        _ => ("QUOTIENT", datapath.divider().map(|d| d.rounding)),
     };
     let own = rounding_number(own.unwrap_or_default());
     let right = format!("{name}_ROUNDING = {own};");
     (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", rounding_number(mode)))
 }
 
+/// In the vector of the modes of all stages.
+fn stage_rounding(datapath: &Datapath, stage: usize, mode: Rounding) -> Change {
+    let own = std::iter::once(0).chain(datapath.stages().iter().map(|line| rounding_number(line.rounding())));
+    let own: Vec<u8> = own.collect();
+    let mut other = own.clone();
+    other[stage] = rounding_number(mode);
+    let text = |modes: &[u8]| {
+        let words: Vec<String> = modes.iter().rev().map(|mode| format!("32'd{mode}")).collect();
+        format!(" T_ROUNDING = {{{}}};", words.join(", "))
+    };
+    (vectors::rtl::PACKAGE, text(&own), text(&other))
+}
+
 /// Where a register is read, or shown to those who read it.
-fn register(
-    datapath: &Datapath,
-    rank: usize,
-    register: DataRegister,
-    defect: Defect,
-) -> Option<Change> {
-    const FIRST_OF_DIVIDER: usize = 2;
-    let held = datapath.registers(rank).into_iter().find(|held| held.name == register.name())?;
+fn register(datapath: &Datapath, rank: usize, register: Register, defect: Defect) -> Option<Change> {
+    let held = datapath.registers(rank).into_iter().find(|held| held.register == register)?;
     let (file, before, signal, after) = match register {
-        DataRegister::V => ("blysk_front_end.sv", "assign v_o = ", "v_q", ";"),
-        DataRegister::T(0) => ("blysk.sv", ".multiplicand_i(", "t1", ")"),
-        DataRegister::T(1) => ("blysk.sv", ".multiplicand_i(", "t2", ")"),
-        DataRegister::T(_) => ("blysk.sv", ".t3_i(", "t3_waited", ")"),
-        DataRegister::TailX => ("blysk_front_end.sv", "assign tail_x_o = ", "tail_x_q", ";"),
-        DataRegister::Remainder if rank == FIRST_OF_DIVIDER => {
+        Register::V => ("blysk_front_end.sv", "assign v_o = ", "v_q", ";"),
+        Register::T(stage) if stage < datapath.degree() => {
+            return Some(stage_register(stage, held.format, defect));
+        }
+        Register::T(_) => ("blysk.sv", ".t_i(", "t_waited", ")"),
+        Register::TailX => ("blysk_front_end.sv", "assign tail_x_o = ", "tail_x_q", ";"),
+        Register::Remainder if rank == HEAD_RANKS => {
             ("blysk_tail.sv", "assign remainder[DIVISOR_BITS-1:0] = ", "remainder_q", ";")
         }
-        DataRegister::Digits if rank == FIRST_OF_DIVIDER => {
+        Register::Digits if rank == HEAD_RANKS => {
             ("blysk_tail.sv", "assign digits[DIGIT_BITS-1:0]      = ", "digits_q", ";")
         }
-        DataRegister::Intensity => ("blysk_clamp.sv", "assign intensity_o = ", "intensity_q", ";"),
+        Register::Intensity => ("blysk_clamp.sv", "assign intensity_o = ", "intensity_q", ";"),
         _ => return None,
     };
     let top = held.format.width() - 1;
@@ -112,43 +117,51 @@ fn register(
     Some((file, format!("{before}{signal}{after}"), format!("{before}{wrong}{after}")))
 }
 
+/// What stage `stage + 1` multiplies, in the loop over the stages.
+fn stage_register(stage: usize, format: QFormat, defect: Defect) -> Change {
+    let right = "assign multiplicand = stage[j-1].t;";
+    let t = "stage[j-1].t";
+    let wrong = match defect {
+        Defect::Short if format.is_signed() => format!("{{{t}[M_WIDTH-2], {t}[M_WIDTH-2:0]}}"),
+        Defect::Short => format!("{{1'b0, {t}[M_WIDTH-2:0]}}"),
+        Defect::LowBitStuck => format!("{t} & ~M_WIDTH'(1)"),
+    };
+    let wrong = format!("assign multiplicand = j == {} ? {wrong} : {t};", stage + 1);
+    change("blysk.sv", right, &wrong)
+}
+
 fn logic(logic: Logic) -> Option<Change> {
     let front_end = |right: &str, wrong: &str| Some(change("blysk_front_end.sv", right, wrong));
     let clamp = |right: &str, wrong: &str| Some(change("blysk_clamp.sv", right, wrong));
     match logic {
         Logic::CutExclusive => front_end("'(x) >= ", "'(x) > "),
-        // Where it is used: a first segment's shift is taken in two places, of which one is there.
-        Logic::ShiftMore => {
-            front_end("<< shift;", "<< (outer_o ? shift : SHIFT_BITS'(shift + 1'b1));")
+        Logic::ShiftMore(0) => front_end("<< shift;", "<< (|beyond_o ? shift : SHIFT_BITS'(shift + 1'b1));"),
+        Logic::ShiftMore(segment) => {
+            let answers = format!("(beyond_o >> {segment}) == SEGMENTS'(1)");
+            let wrong = format!("<< ({answers} ? SHIFT_BITS'(shift + 1'b1) : shift);");
+            front_end("<< shift;", &wrong)
         }
-        Logic::ShiftLess => front_end(
-            "<< shift;",
-            "<< (outer_o || shift == '0 ? shift : SHIFT_BITS'(shift - 1'b1));",
-        ),
-        Logic::ShiftOuterMore => {
-            front_end("SHIFT_BITS'(shift_outer_i)", "SHIFT_BITS'(shift_outer_i) + 1'b1")
+        Logic::ShiftLess => {
+            front_end("<< shift;", "<< (|beyond_o || shift == '0 ? shift : SHIFT_BITS'(shift - 1'b1));")
         }
-        Logic::HandOverExclusive => front_end("'(x) < ", "'(x) <= "),
+        Logic::HandOverExclusive(segment) => {
+            let wrong = format!("(k == {segment} ? COMPARE'(x) <= hand_over : COMPARE'(x) < hand_over);");
+            front_end("COMPARE'(x) < hand_over;", &wrong)
+        }
         Logic::NoInputClamp => front_end("above_one ? blysk_pkg::X_GREATEST", "1'b0 ? '0"),
         Logic::NegativeAsUnsigned => None,
         Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),
         Logic::NoClampBelow => clamp("below ? '0 :", "1'b0 ? '0 :"),
-        Logic::NoClampAbove => {
-            clamp("above ? blysk_pkg::OUTPUT_GREATEST :", "1'b0 ? blysk_pkg::OUTPUT_GREATEST :")
-        }
-        Logic::NoQuotientClamp => {
-            clamp("assign quotient = rounded >", "assign quotient = 1'b0 && rounded >")
-        }
+        Logic::NoClampAbove => clamp("above ? blysk_pkg::OUTPUT_GREATEST :", "1'b0 ? blysk_pkg::OUTPUT_GREATEST :"),
+        Logic::NoQuotientClamp => clamp("assign quotient = rounded >", "assign quotient = 1'b0 && rounded >"),
         Logic::NoFlag(flag) => {
             let place = flag.bits().trailing_zeros();
             let mask = format!("status_q & ~(blysk_pkg::STATUS_WIDTH'(1) << {place})");
             clamp("= status_q;", &format!("= {mask};"))
         }
-        Logic::DigitMissing => Some(change(
-            "blysk_tail.sv",
-            ".COUNT(COUNT)",
-            ".COUNT(step == STEPS - 1 ? COUNT - 1 : COUNT)",
-        )),
+        Logic::DigitMissing => {
+            Some(change("blysk_tail.sv", ".COUNT(COUNT)", ".COUNT(step == STEPS - 1 ? COUNT - 1 : COUNT)"))
+        }
     }
 }
 

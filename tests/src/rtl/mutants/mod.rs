@@ -43,7 +43,7 @@ const WRAPPER: &str = include_str!("../blysk_mutated.sv");
 /// What became of a mutant.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outcome {
-    /// The mutant's name.
+    /// The name of the mutant, for tables.
     pub name: String,
     /// What the testbench found: `vector 17`, `handshake`; none where it passed.
     pub killed_by: Option<String>,
@@ -52,7 +52,7 @@ pub struct Outcome {
 /// A directory in which mutants are run: the RTL, a bundle, and the wrapper.
 #[derive(Debug)]
 pub struct Bench {
-    /// The directory.
+    /// The directory in which mutants are built and run.
     pub directory: PathBuf,
 }
 
@@ -96,12 +96,7 @@ impl Bench {
     ///
     /// # Errors
     /// When it says neither PASS nor FAIL.
-    pub fn run(
-        &self,
-        simulator: &Simulator,
-        place: &Path,
-        plusargs: &[String],
-    ) -> Result<Option<String>, Failure> {
+    pub fn run(&self, simulator: &Simulator, place: &Path, plusargs: &[String]) -> Result<Option<String>, Failure> {
         let mut command = simulator.testbench(&self.directory);
         let output = command.current_dir(place).args(plusargs).output();
         let output = output.map_err(|error| Failure(error.to_string()))?;
@@ -123,8 +118,7 @@ impl Bench {
     /// # Errors
     /// When it cannot be removed.
     pub fn clear(&self, simulator: &Simulator) -> Result<(), Failure> {
-        std::fs::remove_dir_all(self.directory.join(simulator.build()))
-            .map_err(|error| Failure(error.to_string()))
+        std::fs::remove_dir_all(self.directory.join(simulator.build())).map_err(|error| Failure(error.to_string()))
     }
 
     /// Compiles a copy with one line changed, and runs it.
@@ -134,13 +128,11 @@ impl Bench {
     pub fn run_edit(&self, simulator: &Simulator, edit: &edits::Edit) -> Result<Outcome, Failure> {
         let directory = self.directory.file_name().unwrap_or_default().to_string_lossy();
         let thread = rayon::current_thread_index().unwrap_or(0);
-        let copy =
-            Self { directory: copy(&self.directory, &format!("{directory}-edit-{thread}"))? };
+        let copy = Self { directory: copy(&self.directory, &format!("{directory}-edit-{thread}"))? };
         let path = copy.directory.join(edit.file);
         let text = std::fs::read_to_string(&path).map_err(|error| Failure(error.to_string()))?;
         std::fs::write(&path, edit.apply(&text)?).map_err(|error| Failure(error.to_string()))?;
-        copy.build(simulator, &own_sources())
-            .map_err(|error| Failure(format!("{}: {error}", edit.name)))?;
+        copy.build(simulator, &own_sources()).map_err(|error| Failure(format!("{}: {error}", edit.name)))?;
         let killed_by = copy.run(simulator, &copy.directory, &[])?;
         Ok(Outcome { name: edit.name.clone(), killed_by })
     }

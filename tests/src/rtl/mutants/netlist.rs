@@ -51,8 +51,7 @@ fn draw(directory: &Path, count: usize, seed: u64) -> Result<Vec<String>, Failur
     for drawn in count..=count + MORE {
         let list = format!("mutate -list {drawn} -seed {seed} -ctrl mutant 16 1 -o {LIST}");
         yosys(directory, &format!("read_rtlil {RIGHT}; {list}"))?;
-        let text = std::fs::read_to_string(directory.join(LIST))
-            .map_err(|error| Failure(error.to_string()))?;
+        let text = std::fs::read_to_string(directory.join(LIST)).map_err(|error| Failure(error.to_string()))?;
         let sensible = text.lines().filter(|mutation| is_hardware(mutation));
         if sensible.clone().count() >= count {
             return Ok((1..).zip(sensible.take(count)).map(|(n, m)| numbered(m, n)).collect());
@@ -89,11 +88,7 @@ pub fn sources() -> String {
 ///
 /// # Errors
 /// When a run gives no verdict, or the netlist is wrong without a mutation.
-pub fn run(
-    bench: &Bench,
-    simulator: &Simulator,
-    mutations: &[String],
-) -> Result<Vec<Outcome>, Failure> {
+pub fn run(bench: &Bench, simulator: &Simulator, mutations: &[String]) -> Result<Vec<Outcome>, Failure> {
     let place = bench.place("netlist", &[])?;
     let killed_by = |number: usize| -> Result<Option<String>, Failure> {
         for power_up in POWER_UPS {
@@ -128,10 +123,9 @@ pub fn judge(
     seconds: u32,
 ) -> Result<Vec<Option<Judgement>>, Failure> {
     let prover = Prover::new(directory, RIGHT, datapath, seconds)?;
-    let judged =
-        mutations.par_iter().zip(survives).enumerate().map(|(index, (mutation, survives))| {
-            survives.then(|| prover.judge(index + 1, &without_control(mutation))).transpose()
-        });
+    let judged = mutations.par_iter().zip(survives).enumerate().map(|(index, (mutation, survives))| {
+        survives.then(|| prover.judge(index + 1, &without_control(mutation))).transpose()
+    });
     judged.collect()
 }
 

@@ -104,12 +104,7 @@ fn image(design: &Design, rows: &[Row]) -> String {
 ///
 /// # Errors
 /// When a run gives no verdict.
-pub fn run(
-    bench: &Bench,
-    simulator: &Simulator,
-    design: &Design,
-    faults: &[Wrong],
-) -> Result<Vec<Outcome>, Failure> {
+pub fn run(bench: &Bench, simulator: &Simulator, design: &Design, faults: &[Wrong]) -> Result<Vec<Outcome>, Failure> {
     let outcome = |fault: &Wrong| {
         let thread = rayon::current_thread_index().unwrap_or(0);
         let place = bench.place(&format!("rom-{thread}"), &["rom.mem"])?;

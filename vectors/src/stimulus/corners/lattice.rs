@@ -9,9 +9,9 @@ use std::ops::RangeInclusive;
 /// drops is then likely to be a tie exactly, not only nearly.
 #[derive(Debug, Clone)]
 pub struct Lattice {
-    /// The points.
+    /// The points, as bits of x.
     pub points: Vec<i64>,
-    /// 2^k.
+    /// The distance between neighbouring points: 2^k.
     pub step: i64,
 }
 
@@ -49,12 +49,7 @@ pub fn powers_apart(range: &RangeInclusive<i64>, greatest: i64) -> impl Iterator
 
 /// From `x`, in steps that halve from `step` to 1, to the x of `range` with the greatest score that
 /// can be reached uphill. On a curve with one summit between two lattice points that is the summit.
-pub fn climb<S: PartialOrd>(
-    x: i64,
-    step: i64,
-    range: &RangeInclusive<i64>,
-    score: impl Fn(i64) -> S,
-) -> i64 {
+pub fn climb<S: PartialOrd>(x: i64, step: i64, range: &RangeInclusive<i64>, score: impl Fn(i64) -> S) -> i64 {
     let mut best = (score(x), x);
     let mut step = step / 2;
     while step > 0 {

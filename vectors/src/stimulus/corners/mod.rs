@@ -51,26 +51,20 @@ impl Corners {
     #[must_use]
     pub fn beside(design: &Design, limit: u64, others: &[Sample]) -> Self {
         let effort = Effort::for_depth(design.rom().depth());
-        let mut lists: Vec<Vec<Point>> = (0..design.rom().depth() as u32)
-            .map(|address| row::corners(design, address, effort))
-            .collect();
+        let mut lists: Vec<Vec<Point>> =
+            (0..design.rom().depth() as u32).map(|address| row::corners(design, address, effort)).collect();
         let no_word = without_word(design);
         let in_rows: usize = lists.iter().map(Vec::len).sum();
-        let taken: HashSet<(u32, i64)> =
-            others.iter().map(|sample| (sample.case.address, sample.case.x)).collect();
+        let taken: HashSet<(u32, i64)> = others.iter().map(|sample| (sample.case.address, sample.case.x)).collect();
         for (address, list) in (0..).zip(&mut lists) {
             list.retain(|point| !taken.contains(&(address, point.x)));
         }
         let elsewhere = in_rows - lists.iter().map(Vec::len).sum::<usize>();
         let samples = in_rounds(design, &lists, &no_word, limit);
-        Self {
-            available: (in_rows + no_word.len()) as u64,
-            present: (samples.len() + elsewhere) as u64,
-            samples,
-        }
+        Self { available: (in_rows + no_word.len()) as u64, present: (samples.len() + elsewhere) as u64, samples }
     }
 
-    /// The corners taken.
+    /// The corners that were taken, as vectors.
     #[must_use]
     pub fn samples(&self) -> &[Sample] {
         &self.samples

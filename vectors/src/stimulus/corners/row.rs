@@ -3,13 +3,15 @@
 use std::ops::RangeInclusive;
 
 use hw_model::datapath::front_end::Region;
-use hw_model::datapath::{Register, Signals};
+use hw_model::datapath::{RankRegister, Signals};
 use hw_model::design::Design;
 use hw_model::quantise::{real, round_scaled};
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 
 use super::lattice::{Lattice, climb, powers_apart};
 use super::ties;
+use crate::faults::line_name;
 use crate::kind::Kind;
 use crate::reference::reference;
 use crate::stimulus::rounds::Point;
@@ -52,12 +54,16 @@ fn head(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     list.add(Kind::One, survey.greatest);
     list.extend(survey.cut.map(|cut| Point { kind: Kind::Cut, x: cut }));
     list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut - 1 }));
-    list.extend(survey.hand_over.map(|x| Point { kind: Kind::HandOver, x }));
-    list.extend(survey.hand_over.map(|x| Point { kind: Kind::BesideHandOver, x: x - 1 }));
-    list.extend(survey.worst(&survey.polynomial, Kind::WorstPolynomial));
-    list.extend(survey.worst(&survey.outer, Kind::WorstPolynomial));
+    for &x in &survey.hand_overs {
+        list.add(Kind::HandOver, x);
+        list.add(Kind::BesideHandOver, x - 1);
+    }
+    list.extend(survey.worst(survey.polynomial.as_ref(), Kind::WorstPolynomial));
+    for outer in &survey.outer {
+        list.extend(survey.worst(Some(outer), Kind::WorstPolynomial));
+    }
     list.add(Kind::Zero, 0);
-    list.extend(survey.worst(&survey.below, Kind::WorstTail));
+    list.extend(survey.worst(survey.below.as_ref(), Kind::WorstTail));
     list.add(Kind::BesideOne, survey.greatest - 1);
     list.extend(ties.first().copied());
 }
@@ -67,7 +73,9 @@ fn rest(survey: &Survey<'_>, ties: &[Point], list: &mut List) {
     list.add(Kind::BesideOne, survey.greatest + 1);
     list.add(Kind::BesideZero, 1);
     list.extend(survey.cut.map(|cut| Point { kind: Kind::BesideCut, x: cut + 1 }));
-    list.extend(survey.hand_over.map(|x| Point { kind: Kind::BesideHandOver, x: x + 1 }));
+    for &x in &survey.hand_overs {
+        list.add(Kind::BesideHandOver, x + 1);
+    }
     for x in [survey.q, survey.q - 1, survey.q + 1] {
         list.add(Kind::Q, x);
     }
@@ -126,12 +134,13 @@ struct Survey<'a> {
     greatest: i64,
     /// The cut, where there is a polynomial.
     cut: Option<i64>,
-    /// Where the first segment hands over to a second, where there is one.
-    hand_over: Option<i64>,
+    /// Where segments hand over, from x = 1 downwards; only those within [0, 1] and above the cut.
+    hand_overs: Vec<i64>,
     /// q in the input's unit.
     q: i64,
     polynomial: Option<Part>,
-    outer: Option<Part>,
+    /// The further segments, from x = 1 downwards.
+    outer: Vec<Part>,
     below: Option<Part>,
 }
 
@@ -139,11 +148,20 @@ impl<'a> Survey<'a> {
     fn new(design: &'a Design, address: u32, effort: Effort) -> Self {
         let datapath = design.datapath();
         let greatest = datapath.front_end().greatest;
-        let cut = datapath.stages().map(|_| datapath.front_end().cut(&datapath.row(address)));
+        let row = datapath.row(address);
+        let cut = (datapath.degree() > 0).then(|| datapath.front_end().cut(&row));
         let from = cut.unwrap_or(greatest + 1);
-        let hand_over = datapath.front_end().hand_over(&datapath.row(address)).min(greatest + 1);
-        let hand_over = Some(hand_over).filter(|&hand_over| hand_over > from);
-        let first = hand_over.unwrap_or(from);
+        let mut hand_overs = Vec::new();
+        let mut outer = Vec::new();
+        let mut first = from;
+        for segment in (1..datapath.segment_count()).rev() {
+            let hand_over = datapath.front_end().hand_over(&row, segment).min(greatest + 1);
+            if hand_over > first {
+                outer.insert(0, first..=hand_over - 1);
+                hand_overs.insert(0, hand_over);
+                first = hand_over;
+            }
+        }
         let fraction = design.config().input.fraction_bits();
         let p = design.rows().get(address as usize).map_or(0.0, |row| row.epicentre);
         // p lies in (0, 1), so it rounds to 0..=one.
@@ -155,9 +173,9 @@ impl<'a> Survey<'a> {
             greatest,
             cut,
             q: design.config().input.one() - p,
-            hand_over,
+            hand_overs,
             polynomial: Part::new(first..=greatest, effort),
-            outer: Part::new(from..=first - 1, effort),
+            outer: outer.into_iter().filter_map(|range| Part::new(range, effort)).collect(),
             below: Part::new(0..=greatest.min(from - 1), effort),
         }
     }
@@ -186,8 +204,8 @@ impl<'a> Survey<'a> {
         }
     }
 
-    fn worst(&self, part: &Option<Part>, kind: Kind) -> Option<Point> {
-        let part = part.as_ref()?;
+    fn worst(&self, part: Option<&Part>, kind: Kind) -> Option<Point> {
+        let part = part?;
         let exponent = self.design.rows().get(self.address as usize)?.exponent;
         let config = self.design.config();
         let error = |x| {
@@ -201,13 +219,10 @@ impl<'a> Survey<'a> {
     fn ties(&self) -> Vec<Point> {
         let lines = ties::lines(self.design.datapath());
         let mut nearest: Vec<Option<(f64, i64)>> = vec![None; lines.len()];
-        let parts = [
-            (Region::Polynomial, &self.polynomial),
-            (Region::Polynomial, &self.outer),
-            (Region::Tail, &self.below),
-        ];
+        let polynomial = self.polynomial.iter().chain(&self.outer);
+        let parts =
+            polynomial.map(|part| (Region::Polynomial, part)).chain(self.below.iter().map(|part| (Region::Tail, part)));
         for (region, part) in parts {
-            let Some(part) = part else { continue };
             let lattice = part.lattice.points.iter().copied();
             for x in lattice.chain(powers_apart(&part.range, self.greatest)) {
                 let last = self.last(x);
@@ -221,7 +236,7 @@ impl<'a> Survey<'a> {
             }
         }
         let corner = |(line, nearest): (&ties::Line, Option<(f64, i64)>)| {
-            nearest.map(|(_, x)| Point { kind: Kind::Tie(line.register()), x })
+            nearest.map(|(_, x)| Point { kind: Kind::Tie(line_name(line.register())), x })
         };
         lines.iter().zip(nearest).filter_map(corner).collect()
     }
@@ -250,7 +265,7 @@ impl<'a> Survey<'a> {
             for &x in &part.lattice.points {
                 let passage = self.design.datapath().passage(self.address, x);
                 for extreme in &mut registers {
-                    let bits = (extreme.register.bits)(&passage[extreme.rank]);
+                    let bits = extreme.register.bits(&passage[extreme.rank]);
                     extreme.take(bits, x);
                 }
             }
@@ -263,7 +278,7 @@ impl<'a> Survey<'a> {
         let mut list = Vec::new();
         for rank in 1..datapath.rank_count() {
             let computed = datapath.registers(rank).into_iter().filter(|register| {
-                register.computed && !matches!(register.name, "region" | "status")
+                register.computed && !matches!(register.register, Register::Region | Register::Status)
             });
             list.extend(computed.map(|register| Extreme { rank, register, ends: None }));
         }
@@ -276,9 +291,9 @@ impl<'a> Survey<'a> {
         };
         let bits = |x| {
             let passage = self.design.datapath().passage(self.address, x);
-            i128::from((extreme.register.bits)(&passage[extreme.rank]))
+            i128::from(extreme.register.bits(&passage[extreme.rank]))
         };
-        let (rank, name) = (extreme.rank, extreme.register.name);
+        let (rank, name) = (extreme.rank, extreme.register.name());
         let refined = |x, sign: i128| {
             let parts = [&self.polynomial, &self.below];
             let part = parts.into_iter().flatten().find(|part| part.range.contains(&x));
@@ -294,7 +309,7 @@ impl<'a> Survey<'a> {
 /// A register and where its ends were found: (bits, x), least and greatest.
 struct Extreme {
     rank: usize,
-    register: Register,
+    register: RankRegister,
     ends: Option<[(i64, i64); 2]>,
 }
 

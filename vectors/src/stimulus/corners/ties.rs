@@ -6,7 +6,7 @@
 use hw_model::datapath::front_end::{FrontEnd, Region, Variable};
 use hw_model::datapath::stage::{Fractions, MultiplyAdd};
 use hw_model::datapath::{Datapath, Signals};
-use hw_model::rom::FieldName;
+use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 
 /// A line that rounds.
@@ -15,7 +15,7 @@ pub enum Line {
     /// u = (1 − x)·2^e.
     Variable { front_end: FrontEnd, up: u32, drop: u32 },
     /// A multiply-add with all its bits, of which the real one drops `drop`.
-    MultiplyAdd { register: &'static str, exact: MultiplyAdd, drop: u32 },
+    MultiplyAdd { register: Register, degree: usize, exact: MultiplyAdd, drop: u32 },
     /// The quotient, of which a guard bit and a sticky bit are dropped.
     Quotient,
 }
@@ -23,10 +23,9 @@ pub enum Line {
 /// Every line of the data path that rounds, the one nearest to the output first.
 pub fn lines(datapath: &Datapath) -> Vec<Line> {
     let mut lines = Vec::new();
-    let stages = datapath.stages().map(|stages| stages.as_slice()).unwrap_or_default();
-    for (index, stage) in stages.iter().enumerate().rev() {
-        let fractions = stage_fractions(datapath, index);
-        lines.extend(exact_line(["t1", "t2", "t3"][index], stage, fractions));
+    for (index, line) in datapath.stages().iter().enumerate().rev() {
+        let fractions = stage_fractions(datapath, index + 1);
+        lines.extend(exact_line(Register::T(index + 1), datapath.degree(), line, fractions));
     }
     if let Some(divider) = datapath.divider() {
         lines.insert(lines.len().min(1), Line::Quotient);
@@ -36,7 +35,7 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
             addend: formats.a.fraction_bits(),
             result: 0,
         });
-        lines.extend(exact_line("divisor", &divider.divisor, fractions));
+        lines.extend(exact_line(Register::Divisor, 0, &divider.divisor, fractions));
     }
     let front_end = datapath.front_end();
     if let Some(Variable::U { up, drop, .. }) = front_end.variable
@@ -47,47 +46,39 @@ pub fn lines(datapath: &Datapath) -> Vec<Line> {
     lines
 }
 
-fn stage_fractions(datapath: &Datapath, index: usize) -> Option<Fractions> {
+fn stage_fractions(datapath: &Datapath, stage: usize) -> Option<Fractions> {
     let formats = datapath.formats().polynomial.as_ref()?;
-    let coefficient = |name| {
-        let field = datapath.rom().layout().field(name);
-        field.map(|field| field.format.fraction_bits())
-    };
-    let (multiplicand, addend) = match index {
-        0 => (coefficient(FieldName::C3)?, coefficient(FieldName::C2)?),
-        1 => (formats.t1.fraction_bits(), coefficient(FieldName::C1)?),
-        _ => (formats.t2.fraction_bits(), coefficient(FieldName::C0)?),
-    };
-    Some(Fractions { multiplicand, variable: formats.v.fraction_bits(), addend, result: 0 })
+    Some(Fractions {
+        multiplicand: formats.multiplicand(stage).fraction_bits(),
+        variable: formats.v.fraction_bits(),
+        addend: formats.addend(stage).fraction_bits(),
+        result: 0,
+    })
 }
 
 /// None where nothing is dropped.
-fn exact_line(
-    register: &'static str,
-    line: &MultiplyAdd,
-    fractions: Option<Fractions>,
-) -> Option<Line> {
+fn exact_line(register: Register, degree: usize, line: &MultiplyAdd, fractions: Option<Fractions>) -> Option<Line> {
     let (fractions, drop) = (fractions?, line.dropped_bits());
     let result = (fractions.multiplicand + fractions.variable).max(fractions.addend);
     let whole = Fractions { result, ..fractions };
     let exact = MultiplyAdd::aligned(whole, line.subtracts(), Rounding::Floor);
-    (drop > 0).then_some(Line::MultiplyAdd { register, exact, drop })
+    (drop > 0).then_some(Line::MultiplyAdd { register, degree, exact, drop })
 }
 
 impl Line {
     /// The register that takes the rounded result.
-    pub const fn register(&self) -> &'static str {
+    pub const fn register(&self) -> Register {
         match self {
-            Self::Variable { .. } => "u",
-            Self::MultiplyAdd { register, .. } => register,
-            Self::Quotient => "quotient",
+            Self::Variable { .. } => Register::V,
+            Self::MultiplyAdd { register, .. } => *register,
+            Self::Quotient => Register::Intensity,
         }
     }
 
     /// The part of the pipeline the line belongs to.
     pub fn region(&self) -> Region {
         match self.register() {
-            "quotient" | "divisor" => Region::Tail,
+            Register::Intensity | Register::Divisor => Region::Tail,
             _ => Region::Polynomial,
         }
     }
@@ -98,15 +89,12 @@ impl Line {
         match self {
             Self::Variable { front_end, up, drop } => {
                 let row = &last.row;
-                let hand_over = front_end.hand_over(row);
-                let (start, shift) = match last.x < hand_over {
-                    true => (hand_over, row.shift_outer()),
-                    false => (front_end.one, row.shift()),
-                };
+                let segment = front_end.segment_of(row, last.x);
+                let (start, shift) = (front_end.start(row, segment), row.shift(segment));
                 from_half(i128::from(start - last.x) << (shift + up), *drop)
             }
-            Self::MultiplyAdd { register, exact, drop } => {
-                let operands = operands(register, last);
+            Self::MultiplyAdd { register, degree, exact, drop } => {
+                let operands = operands(*register, *degree, last);
                 let [multiplicand, variable, addend] = operands.map(i128::from);
                 from_half(exact.apply(multiplicand, variable, addend), *drop)
             }
@@ -121,14 +109,15 @@ impl Line {
     }
 }
 
-fn operands(register: &str, last: &Signals) -> [i64; 3] {
-    let field = |name| last.row.get(name);
-    match register {
-        "t1" => [field(FieldName::C3), last.v, field(FieldName::C2)],
-        "t2" => [last.t1, last.v, field(FieldName::C1)],
-        "t3" => [last.t2, last.v, field(FieldName::C0)],
-        _ => [field(FieldName::TailB), last.tail_x, field(FieldName::TailA)],
-    }
+fn operands(register: Register, degree: usize, last: &Signals) -> [i64; 3] {
+    let [multiplicand, variable, addend] = match register {
+        Register::T(stage) => {
+            let before = if stage == 1 { Register::C(0, degree) } else { Register::T(stage - 1) };
+            [before, Register::V, Register::C(0, degree - stage)]
+        }
+        _ => [Register::TailB, Register::TailX, Register::TailA],
+    };
+    [last.get(multiplicand), last.get(variable), last.get(addend)]
 }
 
 /// |low `drop` bits − half|, in units of 2^drop.
@@ -156,17 +145,12 @@ mod tests {
                     let x = design.config().input.one() / 64 * i + 12_345 * i;
                     let last = design.datapath().evaluate(address, x);
                     for line in lines(design.datapath()) {
-                        let Line::MultiplyAdd { register, exact, drop } = line else { continue };
+                        let Line::MultiplyAdd { register, degree, exact, drop } = line else { continue };
                         if line.region() != last.region {
                             continue;
                         }
-                        let [a, v, c] = operands(register, &last).map(i128::from);
-                        let wanted = match register {
-                            "t1" => last.t1,
-                            "t2" => last.t2,
-                            "t3" => last.t3,
-                            _ => last.division.divisor,
-                        };
+                        let [a, v, c] = operands(register, degree, &last).map(i128::from);
+                        let wanted = last.get(register);
                         let got = round_shift(exact.apply(a, v, c), drop, rounding);
                         assert_eq!(got, i128::from(wanted), "{} {register} {x}", preset.name);
                         compared += 1;

@@ -64,7 +64,7 @@ pub fn cut(graph: &Graph, module: &Module, question: Question) -> Result<Value, 
     let mut core = module.clone();
     core.insert("ports".to_owned(), Value::Object(ports));
     core.insert("cells".to_owned(), Value::Object(cells));
-    // Nobody asks for the names any more, and Yosys would keep every one of them.
+    // The names are not needed any more, and Yosys would keep every one of them.
     core.insert("netnames".to_owned(), json!({}));
     Ok(Value::Object(core))
 }

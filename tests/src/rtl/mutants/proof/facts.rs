@@ -1,26 +1,25 @@
 //! What the model knows of the registers: the least and the greatest value each of them takes.
 
 use hw_model::datapath::Datapath;
+use hw_model::datapath::ranks::HEAD_RANKS;
 use hw_model::datapath::reach::{PolynomialReach, Reach, TailReach};
+use hw_model::registers::Register;
 use vectors::rtl::probes;
 
 /// A register that only takes values of a range, whatever the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fact {
-    /// The rank.
+    /// The rank of the register.
     pub rank: usize,
     /// Its name in the RTL.
     pub path: String,
-    /// The least value.
+    /// The least value that the register takes.
     pub least: i64,
-    /// The greatest value.
+    /// The greatest value that the register takes.
     pub greatest: i64,
     /// True where the highest bit is a sign.
     pub signed: bool,
 }
-
-/// The first rank of the divider.
-const FIRST_OF_DIVIDER: usize = 2;
 
 /// What is known of every register that the model's range analysis looks at ([`Datapath::polynomial_reach`],
 /// [`Datapath::tail_reach`]: exact, over every row and every x).
@@ -29,10 +28,10 @@ pub fn facts(datapath: &Datapath) -> Vec<Fact> {
     let (polynomial, tail) = (datapath.polynomial_reach(), datapath.tail_reach());
     let digit_stages = datapath.divider().map_or(0, |divider| divider.digit_stages() as usize);
     let known = probes::probes(datapath).into_iter().filter_map(|probe| {
-        let reach = match probe.register.name {
-            "remainder" if probe.rank != FIRST_OF_DIVIDER => None,
-            "digits" if probe.rank < FIRST_OF_DIVIDER + digit_stages => None,
-            name => of_polynomial(polynomial.as_ref(), name).or(of_tail(tail.as_ref(), name)),
+        let reach = match probe.register.register {
+            Register::Remainder if probe.rank != HEAD_RANKS => None,
+            Register::Digits if probe.rank < HEAD_RANKS + digit_stages => None,
+            register => of_polynomial(polynomial.as_ref(), register).or(of_tail(tail.as_ref(), register)),
         }?;
         Some(Fact {
             rank: probe.rank,
@@ -45,24 +44,22 @@ pub fn facts(datapath: &Datapath) -> Vec<Fact> {
     known.collect()
 }
 
-fn of_polynomial(reach: Option<&PolynomialReach>, name: &str) -> Option<Reach> {
+fn of_polynomial(reach: Option<&PolynomialReach>, register: Register) -> Option<Reach> {
     let reach = reach?;
-    match name {
-        "v" => Some(reach.v),
-        "t1" => Some(reach.lines[0]),
-        "t2" => Some(reach.lines[1]),
-        "t3" => Some(reach.lines[2]),
+    match register {
+        Register::V => Some(reach.v),
+        Register::T(stage) => reach.lines.get(stage - 1).copied(),
         _ => None,
     }
 }
 
-fn of_tail(reach: Option<&TailReach>, name: &str) -> Option<Reach> {
+fn of_tail(reach: Option<&TailReach>, register: Register) -> Option<Reach> {
     let reach = reach?;
-    match name {
-        "tail_x" => Some(reach.x),
-        "divisor" => Some(reach.divisor),
-        "remainder" => Some(reach.first_remainder),
-        "digits" => Some(reach.quotient),
+    match register {
+        Register::TailX => Some(reach.x),
+        Register::Divisor => Some(reach.divisor),
+        Register::Remainder => Some(reach.first_remainder),
+        Register::Digits => Some(reach.quotient),
         _ => None,
     }
 }

@@ -42,7 +42,7 @@ impl Frames {
         Self { graph, facts, regions, readers }
     }
 
-    /// The netlist's graph.
+    /// The graph of the netlist.
     #[must_use]
     pub const fn graph(&self) -> &Graph {
         &self.graph
@@ -152,8 +152,7 @@ impl<'a> Frame<'a> {
     }
 
     fn finish(self) -> String {
-        let inputs: Vec<String> =
-            self.inputs.iter().map(|input| format!("input {input}")).collect();
+        let inputs: Vec<String> = self.inputs.iter().map(|input| format!("input {input}")).collect();
         let ports = inputs.join(", ");
         let differences = self.differences.join(",\n    ");
         format!(
@@ -214,13 +213,7 @@ impl<'a> Frame<'a> {
     }
 
     /// Declares what a cut register holds and what it is about to load; returns its connections.
-    fn register(
-        &mut self,
-        side: &str,
-        index: usize,
-        holds: Holds,
-        given: impl Fn(usize, usize) -> String,
-    ) -> String {
+    fn register(&mut self, side: &str, index: usize, holds: Holds, given: impl Fn(usize, usize) -> String) -> String {
         let width = self.frames.graph.registers[index].output.len();
         let is_right = if side == SIDES[0] { "1'b1" } else { "1'b0" };
         let bit = |place| match (holds, self.question) {
@@ -233,8 +226,7 @@ impl<'a> Frame<'a> {
         self.line(&format!("wire [{top}:0] {side}_data_{index};"));
         self.line(&format!("wire {side}_load_{index}, {side}_clock_{index};"));
         let connect = |port: &str, wire: &str| format!(".{port}_{index}({side}_{wire}_{index})");
-        let mut connections =
-            vec![connect("state", "given"), connect("data", "data"), connect("clock", "clock")];
+        let mut connections = vec![connect("state", "given"), connect("data", "data"), connect("clock", "clock")];
         if holds != Holds::Valid {
             connections.push(connect("load", "load"));
         }
@@ -256,17 +248,11 @@ impl<'a> Frame<'a> {
             self.differences.push(format!("right_out_valid_o && right_{name} != wrong_{name}"));
         }
         for (index, holds) in self.cut() {
-            let next = |side| {
-                format!("({side}_load_{index} ? {side}_data_{index} : {side}_given_{index})")
-            };
+            let next = |side| format!("({side}_load_{index} ? {side}_data_{index} : {side}_given_{index})");
             self.differences.push(format!("right_clock_{index} ^ wrong_clock_{index}"));
             self.differences.push(match holds {
                 Holds::Valid => format!("right_data_{index} ^ wrong_data_{index}"),
-                Holds::Data(rank) => format!(
-                    "right_data_{flags}[{rank}] && {} != {}",
-                    next(SIDES[0]),
-                    next(SIDES[1])
-                ),
+                Holds::Data(rank) => format!("right_data_{flags}[{rank}] && {} != {}", next(SIDES[0]), next(SIDES[1])),
             });
         }
     }
@@ -280,9 +266,7 @@ impl<'a> Frame<'a> {
         for (index, holds) in self.cut() {
             if let Holds::Data(rank) = holds {
                 let read = self.frames.read(self.question, index, rank);
-                self.differences.push(format!(
-                    "known && ((right_data_{index} ^ wrong_data_{index}) & {read}) != 0"
-                ));
+                self.differences.push(format!("known && ((right_data_{index} ^ wrong_data_{index}) & {read}) != 0"));
             }
         }
     }

@@ -13,9 +13,9 @@ pub type Module = Map<String, Value>;
 /// A bit of a signal: the number of its net, or a constant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Bit {
-    /// A net.
+    /// The net of this number.
     Net(u64),
-    /// 0 or 1.
+    /// A constant 0 or 1.
     Constant(bool),
 }
 
@@ -31,9 +31,9 @@ pub enum Holds {
 /// A register: one flip-flop cell of the netlist.
 #[derive(Debug, Clone)]
 pub struct Register {
-    /// The cell.
+    /// The name of the cell in the netlist.
     pub cell: String,
-    /// What it holds.
+    /// The signal of the pipeline that the register holds.
     pub holds: Holds,
     /// The nets it drives.
     pub output: Vec<Bit>,
@@ -53,9 +53,9 @@ pub enum Place {
 pub struct Graph {
     /// Its registers, in the order of their cells' names.
     pub registers: Vec<Register>,
-    /// Ranks of registers.
+    /// The number of ranks.
     pub ranks: usize,
-    /// The module.
+    /// The module as Yosys wrote it.
     module: Module,
     /// The cell that drives a net.
     drivers: BTreeMap<u64, String>,
@@ -72,8 +72,7 @@ pub struct Graph {
 pub fn read(path: &Path) -> Result<Module, Failure> {
     let unreadable = |error: String| Failure(format!("{}: {error}", path.display()));
     let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
-    let mut json: Value =
-        serde_json::from_str(&text).map_err(|error| unreadable(error.to_string()))?;
+    let mut json: Value = serde_json::from_str(&text).map_err(|error| unreadable(error.to_string()))?;
     match json["modules"][hw_model::rtl::TOP].take() {
         Value::Object(module) => Ok(module),
         _ => Err(unreadable("it has no top module".to_owned())),
@@ -82,10 +81,7 @@ pub fn read(path: &Path) -> Result<Module, Failure> {
 
 /// The cells of a module, or its ports.
 pub fn part<'a>(module: &'a Module, name: &str) -> Result<&'a Map<String, Value>, Failure> {
-    module
-        .get(name)
-        .and_then(Value::as_object)
-        .ok_or_else(|| Failure(format!("the netlist has no {name}")))
+    module.get(name).and_then(Value::as_object).ok_or_else(|| Failure(format!("the netlist has no {name}")))
 }
 
 /// The bits of a port of a cell; none where it has no such port.
@@ -165,9 +161,7 @@ impl Graph {
                 continue;
             }
             let output = connection(cell, "Q");
-            let rank = connection(cell, "EN")
-                .first()
-                .and_then(|enable| loads.iter().position(|load| load == enable));
+            let rank = connection(cell, "EN").first().and_then(|enable| loads.iter().position(|load| load == enable));
             let holds = match (kind, rank) {
                 ("$dff", _) if output == valid => Holds::Valid,
                 ("$dffe", Some(rank)) => Holds::Data(rank),
@@ -223,8 +217,7 @@ impl Graph {
     pub fn check_order(&self) -> Result<(), Failure> {
         for register in &self.registers {
             let reads = |from: &BTreeSet<String>| from.contains(&register.cell);
-            let read_by: Vec<usize> =
-                (0..=self.ranks).filter(|&rank| reads(&self.feeders[rank])).collect();
+            let read_by: Vec<usize> = (0..=self.ranks).filter(|&rank| reads(&self.feeders[rank])).collect();
             let right = match register.holds {
                 Holds::Valid => read_by.is_empty(),
                 Holds::Data(rank) => read_by == [rank + 1] && !reads(&self.control),

@@ -1,4 +1,4 @@
-//! Is a mutation of the netlist one that nobody can see?
+//! Decides by proof whether any input shows a mutation of the netlist.
 //!
 //! Where it sits decides what is asked ([`graph::Place`]).
 //!
@@ -46,12 +46,12 @@ pub enum Judgement {
     Equivalent(&'static str),
     /// An input that shows it.
     Visible {
-        /// The address.
+        /// The address of the input that shows it.
         address: u64,
         /// The bits of x.
         x: u64,
     },
-    /// Neither found.
+    /// Neither a proof nor an input that shows it was found.
     Open,
 }
 
@@ -73,16 +73,11 @@ pub struct Prover {
 }
 
 impl Prover {
-    /// A prover for the netlist in a file of this directory. A comparison gets so many seconds.
+    /// A prover for the netlist in a file of this directory. A comparison gets this number of seconds.
     ///
     /// # Errors
     /// When the netlist is not that of the pipeline, or something in it matters that must not.
-    pub fn new(
-        directory: &Path,
-        netlist: &str,
-        datapath: &Datapath,
-        seconds: u32,
-    ) -> Result<Self, Failure> {
+    pub fn new(directory: &Path, netlist: &str, datapath: &Datapath, seconds: u32) -> Result<Self, Failure> {
         let work = directory.join("proof");
         std::fs::create_dir_all(&work).map_err(|error| Failure(error.to_string()))?;
         let script = "dffunmap -srst-only; write_json graph.json; memory_map -rom-only; write_json";
@@ -124,13 +119,7 @@ impl Prover {
     }
 
     /// Compares a netlist with the right one in a frame. Files are named `<name>.…`.
-    fn compare(
-        &self,
-        wrong: &Module,
-        question: Question,
-        frame: &str,
-        name: &str,
-    ) -> Result<Comparison, Failure> {
+    fn compare(&self, wrong: &Module, question: Question, frame: &str, name: &str) -> Result<Comparison, Failure> {
         let graph = self.graph();
         let [right, wrong] = [&self.right, wrong].map(|module| cut(graph, module, question));
         let cores = json!({"creator": "blysk", "modules": {"right": right?, "wrong": wrong?}});
@@ -138,14 +127,13 @@ impl Prover {
             std::fs::write(self.directory.join(format!("{name}.{kind}")), text)
                 .map_err(|error| Failure(error.to_string()))?;
         }
-        // What both have alike is merged while it is words: afterwards nobody can tell it.
+        // What both have alike is merged while it is words: afterwards it cannot be recognised.
         let script = format!(
             "read_json {name}.json; read_verilog -sv {name}.v; \
              hierarchy -top frame; flatten; opt_expr; opt_merge -share_all; opt_clean; \
              techmap; opt -fast; aigmap; opt_clean; write_aiger -symbols {name}.aig"
         );
-        let nothing =
-            format!("read_verilog {name}.v; hierarchy -top nothing; write_aiger -symbols");
+        let nothing = format!("read_verilog {name}.v; hierarchy -top nothing; write_aiger -symbols");
         yosys(&self.directory, &script)?;
         yosys(&self.directory, &format!("{nothing} {name}-0.aig"))?;
         let files = [format!("{name}.aig"), format!("{name}-0.aig")];
@@ -158,10 +146,9 @@ impl Prover {
     /// When a tool fails.
     pub fn judge(&self, number: usize, mutation: &str) -> Result<Judgement, Failure> {
         let place = match (option(mutation, "-cell"), option(mutation, "-port")) {
-            (Some(cell), Some(port)) => self
-                .frames
-                .graph()
-                .place(cell.trim_start_matches('\\'), port.trim_start_matches('\\')),
+            (Some(cell), Some(port)) => {
+                self.frames.graph().place(cell.trim_start_matches('\\'), port.trim_start_matches('\\'))
+            }
             _ => return failed(format!("not a mutation of a cell: {mutation}")),
         };
         let name = format!("wrong-{number}");
@@ -239,7 +226,7 @@ fn option<'a>(command: &'a str, name: &str) -> Option<&'a str> {
 fn regions(graph: &Graph, datapath: &Datapath) -> Result<Vec<Vec<Bit>>, Failure> {
     let mut regions = vec![Vec::new(); datapath.rank_count()];
     for probe in probes::probes(datapath) {
-        if probe.register.name == "region" {
+        if probe.register.register == hw_model::registers::Register::Region {
             regions[probe.rank] = graph.named(&probe.path);
             if regions[probe.rank].is_empty() {
                 return failed(format!("the netlist has no {}", probe.path));

@@ -1,4 +1,4 @@
-//! Yosys and ABC.
+//! Runs Yosys, and ABC inside it.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -17,9 +17,9 @@ pub enum Comparison {
 }
 
 fn run(command: &mut Command) -> Result<Output, Failure> {
-    command.output().map_err(|error| {
-        Failure(format!("cannot run {}: {error}", command.get_program().to_string_lossy()))
-    })
+    command
+        .output()
+        .map_err(|error| Failure(format!("cannot run {}: {error}", command.get_program().to_string_lossy())))
 }
 
 /// Runs Yosys in a directory.
@@ -43,9 +43,7 @@ pub fn compare(directory: &Path, files: [&str; 2], seconds: u32) -> Result<Compa
     const TIME_WAS_UP: i32 = 124;
     let check = format!("cec -C 1000000 -T {seconds} {} {}", files[0], files[1]);
     let limit = seconds.to_string();
-    let output = run(Command::new("timeout")
-        .args([&limit, "yosys-abc", "-c", &check])
-        .current_dir(directory))?;
+    let output = run(Command::new("timeout").args([&limit, "yosys-abc", "-c", &check]).current_dir(directory))?;
     if output.status.code() == Some(TIME_WAS_UP) {
         return Ok(Comparison::Open);
     }

@@ -1,0 +1,16 @@
+//! What can be said of a method and of a configuration: approximation, hardware errors, searches for better hardware,
+//! work against precision, the claims of \[Rom\], stiff and extreme cases; and the files and figures that say it.
+
+pub mod approximation;
+mod budget;
+pub mod claims;
+pub mod error_report;
+pub mod hardware_claim;
+pub mod hardware_cost;
+pub mod pareto;
+mod reference_product;
+pub mod refine;
+pub mod report;
+pub mod sizing;
+pub mod stability;
+pub mod sweep;

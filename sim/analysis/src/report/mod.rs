@@ -1,0 +1,11 @@
+//! The files and figures of a report.
+
+pub mod claims;
+mod figures;
+pub mod files;
+pub mod pareto;
+pub mod pareto_figures;
+pub mod stability;
+mod written;
+
+pub use written::FilesError;

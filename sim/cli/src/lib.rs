@@ -1,0 +1,141 @@
+//! The `blysk` command line: the only place of this crate that knows clap and opens files.
+//!
+//! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
+//! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
+
+mod answers;
+mod bar;
+mod certify;
+mod check;
+mod claims;
+mod coefficients;
+mod configuration;
+mod design;
+mod document;
+mod evaluate;
+mod mesh;
+mod out;
+mod output;
+mod pareto;
+mod pareto_tables;
+mod presets;
+mod recordings;
+mod refine;
+mod render;
+mod report;
+mod rom;
+mod rtl;
+mod scene;
+mod signals;
+mod simulate;
+mod specialise;
+mod stability;
+mod stability_tables;
+mod synthesis;
+mod table;
+mod vectors;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use out::{Out, Outcome};
+
+/// Bit-accurate, cycle-accurate model of a specular-highlight shading pipeline.
+#[derive(Parser)]
+#[command(name = "blysk", version, max_term_width = 100)]
+#[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The commands. What each does is said at its arguments: a comment here would replace the one there.
+#[derive(Subcommand)]
+enum Command {
+    Report(report::Args),
+    Vectors(vectors::Args),
+    Rtl(rtl::Args),
+    Check(check::Args),
+    Certify(certify::Args),
+    Simulate(simulate::Args),
+    Evaluate(evaluate::Args),
+    Claims(claims::Args),
+    Coefficients(coefficients::Args),
+    Rom(rom::Args),
+    Refine(refine::Args),
+    Design(design::Args),
+    Document(document::Args),
+    Stability(stability::Args),
+    Pareto(pareto::Args),
+    Render(render::Args),
+    Mesh(mesh::Args),
+    Scene(scene::Args),
+    Specialise(specialise::Args),
+    Presets(presets::Args),
+}
+
+/// Parses the command line, runs the command, and reports its errors.
+#[must_use]
+pub fn main() -> ExitCode {
+    if let Err(error) = signals::watch() {
+        let _ = writeln!(io::stderr(), "error: cannot watch for signals: {error}");
+        return ExitCode::from(2);
+    }
+    let cli = Cli::parse();
+    let mut out = out::lock();
+    bar::begin();
+    let result = run(cli.command, &mut out).and_then(|outcome| {
+        out.flush()?;
+        Ok(outcome)
+    });
+    bar::end();
+    match result {
+        Ok(Outcome::Good) => ExitCode::SUCCESS,
+        Ok(Outcome::Fails) => ExitCode::from(1),
+        Err(error) => {
+            // Where standard error is closed, the exit status alone tells.
+            let _ = writeln!(io::stderr(), "error: {}", message(&error));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
+    match command {
+        Command::Report(args) => report::run(&args, out),
+        Command::Vectors(args) => vectors::run(&args, out),
+        Command::Rtl(args) => rtl::run(&args, out),
+        Command::Check(args) => check::run(&args, out),
+        Command::Certify(args) => certify::run(&args, out),
+        Command::Simulate(args) => simulate::run(&args, out),
+        Command::Evaluate(args) => evaluate::run(&args, out),
+        Command::Claims(args) => claims::run(&args, out),
+        Command::Coefficients(args) => coefficients::run(&args, out),
+        Command::Rom(args) => rom::run(&args, out),
+        Command::Refine(args) => refine::run(&args, out),
+        Command::Design(args) => design::run(&args, out),
+        Command::Document(args) => document::run(&args, out),
+        Command::Stability(args) => stability::run(&args, out),
+        Command::Pareto(args) => pareto::run(&args, out),
+        Command::Render(args) => render::run(&args, out),
+        Command::Mesh(args) => mesh::run(&args, out),
+        Command::Scene(args) => scene::run(&args, out),
+        Command::Specialise(args) => specialise::run(&args, out),
+        Command::Presets(args) => presets::run(&args, out),
+    }
+}
+
+/// The error and its causes. Many messages end with their cause; it is not said twice.
+fn message(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |said, cause| {
+        if said.is_empty() {
+            cause
+        } else if said.contains(&cause) {
+            said
+        } else {
+            format!("{said}: {cause}")
+        }
+    })
+}

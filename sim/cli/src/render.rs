@@ -1,0 +1,297 @@
+//! `blysk render`: a scene, every highlight of which is the pipeline's.
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use anyhow::Context;
+use clap::Args as ClapArgs;
+use hw_model::design::Design;
+use rayon::prelude::*;
+
+use super::bar::Bar;
+use super::configuration::Configuration;
+use super::out::{Out, Outcome};
+use super::output;
+use super::scene::{Loaded, counted, load, resized, size};
+use super::table::{Cell, Format, Rows, digits, write_folded};
+use scenes::render::{
+    Answers, Codes, Cycles, Picture, Samples, ScenePipeline, Which, Zone, by_material, difference, encode, heat_map,
+    methods, reference, samples, shade,
+};
+use scenes::report::{self as files, RenderReport};
+use scenes::scene::Scene;
+
+/// Render a scene, every highlight through the pipeline, and compare it with x^n.
+///
+/// Spheres, planes and meshes are hit by one ray for each pixel; every x goes through the data path, bit for bit,
+/// grouped by exponent, and is compared with x^n. With --out, the directory gets both pictures, a heat map of
+/// their difference in display codes, the methods side by side, and the figures as render.csv and render.json. The
+/// table has the samples (pixels times lights) of each material by region, and the greatest error of their
+/// highlights in display codes of linear light. Software leaves out samples that face away or lie below the cut: the
+/// highlights are computed with and without these samples, compared, and timed. Exit status: 0 when both are the same,
+/// 1 when they differ, 2 for an error.
+#[derive(ClapArgs)]
+#[command(after_help = "Examples: blysk render scene.json --preset paper --out pictures\n          \
+                        blysk render scene.json --config mine.json --size 64x48 --format json")]
+pub(super) struct Args {
+    /// The scene, as JSON; docs/scenes has some to start from.
+    #[arg(value_name = "SCENE")]
+    scene: PathBuf,
+    #[command(flatten)]
+    configuration: Configuration,
+    /// Write the files to this directory.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    size: Option<(u32, u32)>,
+    /// The clock of the hardware, from which frames a second follow, in MHz.
+    #[arg(long, value_name = "MHZ", default_value_t = 100.0, value_parser = clock)]
+    clock_mhz: f64,
+    /// How to print; csv and json are those of the files.
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+fn clock(text: &str) -> Result<f64, String> {
+    let clock = text.parse().ok().filter(|mhz| (1e-3..=1e6).contains(mhz));
+    clock.ok_or_else(|| format!("{text:?} is no clock; use MHz from 0.001 to 1000000"))
+}
+
+/// Rounds of timing, in each of which both ways have a turn; the least time counts. A round that begins later than this
+/// is left out.
+const ROUNDS: u32 = 7;
+const LATEST_ROUND: Duration = Duration::from_millis(400);
+
+pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let design = args.configuration.design()?;
+    let scene_name = || args.scene.display().to_string();
+    let Loaded { mut scene, files: read } = load(&args.scene)?;
+    resized(&mut scene, args.size)?;
+    let pipeline = ScenePipeline::new(&design, &scene).with_context(scene_name)?;
+    // Made before the work, so that an unwritable place is found at once.
+    let inputs = [read, args.configuration.files()].concat();
+    let names = files::PICTURES.into_iter().chain(files::TABLES);
+    let set = args.out.as_deref().map(|out| output::set(out, "render", &inputs, names)).transpose()?;
+    let begun = Instant::now();
+    let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
+    let bar = Bar::counting(Some(rays), "pixels");
+    let samples = samples(&scene, &bar);
+    bar.finish();
+    let traced = begun.elapsed();
+    let highlights = Highlights::new(&pipeline, &samples);
+    let rendered = Rendered::new(&scene, &samples, &pipeline, &highlights);
+    let report = report(args, &scene, &samples, &pipeline, &rendered, &highlights);
+    if let Some(mut set) = set {
+        let pictures = pictures(&scene, &samples, &design, &rendered)?;
+        files::write(&mut set, &report, &pictures)?;
+        set.commit()?;
+    }
+    match args.format {
+        Format::Table => {
+            print(&report, out)?;
+            times(&highlights, traced, begun.elapsed(), out)?;
+            if let Some(directory) = &args.out {
+                let names = [&files::PICTURES[..], &files::TABLES[..]].concat().join(", ");
+                write_folded(out, &format!("written to {}: {names}", directory.display()))?;
+            }
+        }
+        Format::Csv => out.write_all(&report.csv()?)?,
+        Format::Json => out.write_all(report.json()?.as_bytes())?,
+    }
+    Ok(if highlights.equal { Outcome::Good } else { Outcome::Fails })
+}
+
+/// The pipeline's answers, both ways.
+struct Highlights {
+    needed: Answers,
+    every_requests: u64,
+    equal: bool,
+    /// Of every sample, and of those that need the pipeline.
+    times: [Duration; 2],
+}
+
+impl Highlights {
+    fn new(pipeline: &ScenePipeline<'_>, samples: &Samples) -> Self {
+        let timed = |which| {
+            let begun = Instant::now();
+            let answers = pipeline.answers(samples, which);
+            (answers, begun.elapsed())
+        };
+        let begun = Instant::now();
+        let (every, mut first) = timed(Which::Every);
+        let (needed, mut second) = timed(Which::Needed);
+        for _ in 1..ROUNDS {
+            if begun.elapsed() > LATEST_ROUND {
+                break;
+            }
+            first = first.min(timed(Which::Every).1);
+            second = second.min(timed(Which::Needed).1);
+        }
+        let equal = every.intensities == needed.intensities && every.parts == needed.parts;
+        Self { needed, every_requests: every.requests, equal, times: [first, second] }
+    }
+}
+
+/// Both pictures, and the highlights in them.
+struct Rendered {
+    highlights: Vec<f64>,
+    ideal: Vec<f64>,
+    pipeline: Picture,
+    reference: Picture,
+}
+
+impl Rendered {
+    fn new(scene: &Scene, samples: &Samples, pipeline: &ScenePipeline<'_>, highlights: &Highlights) -> Self {
+        let codes = Codes::new(&scene.image);
+        let ideal = reference(scene, samples);
+        let highlights = pipeline.highlights(&highlights.needed);
+        Self {
+            pipeline: shade(scene, samples, &codes, &highlights),
+            reference: shade(scene, samples, &codes, &ideal),
+            highlights,
+            ideal,
+        }
+    }
+}
+
+fn report(
+    args: &Args,
+    scene: &Scene,
+    samples: &Samples,
+    pipeline: &ScenePipeline<'_>,
+    rendered: &Rendered,
+    highlights: &Highlights,
+) -> RenderReport {
+    let (answers, image) = (&highlights.needed, &scene.image);
+    let cycles = |requests| Cycles::new(pipeline, requests, args.clock_mhz);
+    RenderReport {
+        scene: scene.name.clone(),
+        configuration: pipeline.design().config().name.clone(),
+        angle: scene.angle.name(),
+        width: image.width,
+        height: image.height,
+        display_bits: image.display_bits,
+        transfer: files::transfer_name(image),
+        lights: scene.lights.len(),
+        background_pixels: files::background(scene, samples.pixels.len()),
+        picture: difference(&rendered.pipeline, &rendered.reference),
+        materials: by_material(scene, samples, answers, &rendered.highlights, &rendered.ideal),
+        clock_mhz: args.clock_mhz,
+        every: cycles(highlights.every_requests),
+        needed: cycles(answers.requests),
+    }
+}
+
+fn pictures(scene: &Scene, samples: &Samples, design: &Design, rendered: &Rendered) -> anyhow::Result<[Vec<u8>; 4]> {
+    let transfer = scene.image.transfer;
+    let made: Vec<anyhow::Result<Vec<u8>>> = (0..files::PICTURES.len())
+        .into_par_iter()
+        .map(|index| {
+            let picture = match index {
+                0 => encode(&rendered.reference, transfer).map_err(anyhow::Error::from),
+                1 => encode(&rendered.pipeline, transfer).map_err(anyhow::Error::from),
+                2 => heat_map(&rendered.pipeline, &rendered.reference).map_err(anyhow::Error::from),
+                _ => methods(scene, samples, design.config()).map_err(anyhow::Error::from),
+            };
+            picture.with_context(|| files::PICTURES[index])
+        })
+        .collect();
+    let made = made.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
+    made.try_into().map_err(|_| anyhow::anyhow!("a picture is missing"))
+}
+
+fn print(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
+    let RenderReport { picture, width, height, display_bits, .. } = report;
+    let head = format!(
+        "{}: {width} × {height} pixels, {display_bits} bits, {}, {}, angle {}; {}",
+        report.scene,
+        report.transfer,
+        counted(report.lights, "light"),
+        report.angle,
+        report.configuration
+    );
+    write_folded(out, &head)?;
+    let noise = match picture.psnr {
+        Some(psnr) => format!("PSNR {psnr:.2} dB"),
+        None => "equal pictures".to_owned(),
+    };
+    let said = format!(
+        "against x^n, in display codes: greatest difference {}, mean {}, {noise}; {} pixels differ",
+        picture.greatest,
+        digits(picture.mean, 3),
+        picture.pixels
+    );
+    write_folded(out, &said)?;
+    writeln!(out)?;
+    materials(report).print(out, Format::Table, 4)?;
+    writeln!(out)?;
+    regions(report, out)?;
+    writeln!(out)?;
+    cycles(report).print(out, Format::Table, 6)
+}
+
+fn materials(report: &RenderReport) -> Rows {
+    let mut rows = Rows::new(&["material", "n", "samples", "epicentre", "tail", "zero", "away", "codes"]);
+    for row in &report.materials {
+        let mut cells = vec![row.material.as_str().into(), Cell::Exponent(row.exponent)];
+        cells.push(Cell::Integer(row.samples as i64));
+        cells.extend(Zone::ALL.map(|part| Cell::Integer(row.count(part) as i64)));
+        cells.push(Cell::Real(row.highlight_greatest_codes));
+        rows.push(cells);
+    }
+    rows
+}
+
+/// What part of the picture each region is.
+fn regions(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
+    let pixels = u64::from(report.width) * u64::from(report.height);
+    let places = (pixels * report.lights as u64).max(1) as f64;
+    let share = |count: u64| format!("{:.2}\u{a0}%", 100.0 * count as f64 / places);
+    let mut said: Vec<String> = Zone::ALL
+        .iter()
+        .map(|&part| {
+            let count = report.materials.iter().map(|row| row.count(part)).sum();
+            format!("{} {}", part.name(), share(count))
+        })
+        .collect();
+    said.push(format!("background {}", share(report.background_pixels * report.lights as u64)));
+    let of = if report.lights > 1 { "pixels times lights" } else { "pixels" };
+    Ok(write_folded(out, &format!("share of {of}: {}", said.join(", ")))?)
+}
+
+fn cycles(report: &RenderReport) -> Rows {
+    let clock = format!("frames a second at {} MHz", digits(report.clock_mhz, 6));
+    let mut rows = Rows::new(&["to the pipeline", "requests", "cycles of a frame", &clock]);
+    for (name, cycles) in [("every sample", &report.every), ("those that need it", &report.needed)] {
+        rows.push(vec![
+            name.into(),
+            Cell::Integer(cycles.requests as i64),
+            Cell::Integer(cycles.cycles as i64),
+            cycles.frames_per_second.into(),
+        ]);
+    }
+    rows
+}
+
+fn times(highlights: &Highlights, traced: Duration, all: Duration, out: &mut Out) -> anyhow::Result<()> {
+    writeln!(out)?;
+    let [every, needed] = highlights.times.map(|time| time.as_secs_f64() * 1e3);
+    let left_out = highlights.every_requests - highlights.needed.requests;
+    let equal = if highlights.equal { "every bit is the same" } else { "BITS DIFFER" };
+    let saved = match every - needed {
+        saved if left_out > 0 && saved > 0.0 => {
+            format!("{saved:.2} ms ({:.0}\u{a0}%)", 100.0 * saved / every)
+        }
+        _ => "nothing".to_owned(),
+    };
+    let said = format!(
+        "{left_out} of {} samples left out, as they face away or lie below the cut; {equal}. Highlights took \
+         {every:.2} ms with them and {needed:.2} ms without, which saved {saved}; rays {:.2} s, everything {:.2} s.",
+        highlights.every_requests,
+        traced.as_secs_f64(),
+        all.as_secs_f64()
+    );
+    Ok(write_folded(out, &said)?)
+}

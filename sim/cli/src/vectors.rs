@@ -1,0 +1,140 @@
+//! `blysk vectors`: test vectors for an RTL simulation.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args as ClapArgs, ValueEnum};
+use rayon::prelude::*;
+use vectors::faults::Workers;
+use vectors::{Bundle, Manifest, Strategy, WholeFile, bundle};
+
+use super::bar::Bar;
+use super::configuration::Configuration;
+use super::out::{Out, Outcome};
+use super::output;
+use super::table::write_folded;
+use vectors::progress::Progress;
+
+/// Write test vectors for an RTL simulation.
+///
+/// The directory gets stimulus.mem, expected.mem and rom.mem for $readmemh, vectors.csv (the same vectors with
+/// every expected register), and manifest.json; and negative_control.mem, which is expected.mem with
+/// one wrong word: a testbench that is given it must fail. The same command writes the same bytes.
+///
+/// Strategy compact looks at every input for the fewest vectors that show every fault of the fault model, and
+/// writes faults.csv; that takes minutes.
+#[derive(ClapArgs)]
+#[command(after_help = "Examples: blysk vectors --preset paper --count 4096 --seed 1 --out vectors\n          \
+                        blysk vectors --config small.json --strategy compact --out fewest\n          \
+                        blysk vectors --preset paper --count 64 --format csv --out -")]
+pub(super) struct Args {
+    #[command(flatten)]
+    configuration: Configuration,
+    /// The directory; it is made where it does not exist. With --format csv the file, or - for standard output.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Which files to write.
+    #[arg(long, value_enum, default_value_t)]
+    format: Shape,
+    /// How vectors are chosen: mixed, compact (as few as show every fault), corners, even, random or exhaustive
+    /// (every address with every x).
+    #[arg(long, default_value_t)]
+    strategy: Strategy,
+    /// How many vectors; compact and exhaustive settle that themselves.
+    #[arg(long, default_value_t = 4096)]
+    count: u64,
+    /// Seed of the random vectors, and of the wrong word of the negative control.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+/// The files that the command writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Shape {
+    /// Every file of the bundle.
+    #[default]
+    Files,
+    /// What vectors.csv holds, alone.
+    Csv,
+}
+
+impl Args {
+    /// What made the files: everything that determines their bytes, and not where they went.
+    fn command(&self) -> String {
+        let Self { strategy, count, seed, .. } = self;
+        let configuration = self.configuration.option();
+        let count = match strategy {
+            Strategy::Compact => String::new(),
+            _ => format!(" --count {count}"),
+        };
+        format!("blysk vectors {configuration} --strategy {strategy}{count} --seed {seed}")
+    }
+}
+
+pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let design = args.configuration.design()?;
+    let Args { strategy, count, seed, .. } = *args;
+    let command = args.command();
+    let inputs = args.configuration.files();
+    let bundle = || Bundle::with_workers(&design, strategy, count, seed, &command, &Threads);
+    if args.format == Shape::Csv {
+        let file = WholeFile::apart_from(&inputs, &args.out)?;
+        return table(&bundle()?, file, out);
+    }
+    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, bundle::names(strategy))?;
+    let bundle = bundle()?;
+    let bar = Bar::counting(Some(bundle.vector_count()), "vectors");
+    let watcher = |vectors| bar.advance(vectors);
+    let manifest = bundle.watched(&watcher).stage(&mut set)?;
+    bar.finish();
+    set.commit()?;
+    print(args, &manifest, out)
+}
+
+/// Writes what `vectors.csv` of the bundle would hold, and nothing else.
+fn table(bundle: &Bundle<'_>, file: WholeFile, out: &mut Out) -> anyhow::Result<Outcome> {
+    let count = bundle.vector_count();
+    let alone = file.is_standard_output();
+    let place = bundle.write_table(file)?.commit()?;
+    if !alone {
+        writeln!(out, "{}: {count} vectors", place.display())?;
+    }
+    Ok(Outcome::Good)
+}
+
+fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outcome> {
+    let counts = &manifest.counts;
+    writeln!(
+        out,
+        "{}: {} vectors, {} ROM words, latency {} cycles",
+        args.out.display(),
+        counts.vectors,
+        counts.rom_words,
+        manifest.hardware.latency
+    )?;
+    let kinds: Vec<String> = counts.kinds.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    write_folded(out, &kinds.join(", "))?;
+    for note in &manifest.notes {
+        write_folded(out, &format!("note: {note}"))?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// Every core, with a progress bar on standard error where that is a terminal.
+struct Threads;
+
+impl Workers for Threads {
+    fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
+        let bar = Bar::counting(Some(count.into()), "rows");
+        let results = (0..count)
+            .into_par_iter()
+            .map(|index| {
+                let result = job(index);
+                bar.advance(1);
+                result
+            })
+            .collect();
+        bar.finish();
+        results
+    }
+}

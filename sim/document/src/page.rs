@@ -1,0 +1,116 @@
+//! The page of one configuration, and the page that says what all have in common.
+
+use askama::Template;
+use hw_model::datapath::{Datapath, Status};
+use hw_model::design::Design;
+use hw_model::rtl::SOURCES;
+
+use super::facts::Facts;
+use super::scenario::Scenario;
+use super::table::Table;
+use super::words::places;
+use super::{examples, flip_flops, lines, paths, ports, registers};
+
+#[derive(Template)]
+#[template(path = "hardware.md", escape = "none")]
+struct Page<'a> {
+    command: &'a str,
+    design: &'a Design,
+    datapath: &'a Datapath,
+    name: &'a str,
+    source: &'a str,
+    ports: Table,
+    status: Table,
+    rom: Table,
+    rom_words: Table,
+    registers: Table,
+    ranks: Table,
+    paths: Table,
+    regions: Table,
+    lines: Table,
+    variable: String,
+    bound: String,
+    budget: String,
+    scenarios: &'a [Scenario],
+    requests: Table,
+    passages: Table,
+}
+
+/// The page of a configuration. `source` is the option that chooses it.
+pub(super) fn page(
+    design: &Design,
+    scenarios: &[Scenario],
+    command: &str,
+    source: &str,
+) -> Result<String, askama::Error> {
+    let datapath = design.datapath();
+    let facts = Facts::new(design);
+    let bound = design.bounds().iter().fold(0.0, |most, bound| bound.total().max(most));
+    // The run with a request of each kind and no more.
+    let first = &scenarios[0];
+    let page = Page {
+        command,
+        design,
+        datapath,
+        name: &design.config().name,
+        source,
+        ports: ports::ports(datapath),
+        status: ports::status(design),
+        rom: ports::rom(design),
+        rom_words: ports::words(design),
+        registers: registers::registers(&facts),
+        ranks: flip_flops::ranks(datapath),
+        paths: paths::paths(datapath),
+        regions: lines::regions(datapath),
+        lines: lines::lines(datapath),
+        variable: lines::variable(datapath),
+        bound: places(bound, 4),
+        budget: places(design.config().error_budget_ulp, 6),
+        scenarios,
+        requests: examples::requests(design, first),
+        passages: examples::passages(datapath, first),
+    };
+    Ok(page.render()? + "\n")
+}
+
+impl Page<'_> {
+    fn digits_of(&self) -> String {
+        let Some(divider) = self.datapath.divider() else { return String::new() };
+        let (all, each) = (divider.digit_count, divider.digits_per_stage);
+        let last = all - (divider.digit_stages() - 1) * each;
+        if last == each {
+            format!("{each} in each of {} ranks", divider.digit_stages())
+        } else {
+            format!("{each} in each of {} ranks, {last} in the last", divider.digit_stages() - 1)
+        }
+    }
+}
+
+/// One line of the list of pages.
+pub(super) struct Entry {
+    /// The name of the configuration, and of its page.
+    pub(super) name: String,
+    /// The description that the configuration has of itself.
+    pub(super) description: String,
+    /// Its latency in clock cycles.
+    pub(super) latency: usize,
+}
+
+#[derive(Template)]
+#[template(path = "hardware_common.md", escape = "none")]
+struct Common<'a> {
+    command: &'a str,
+    pages: &'a [Entry],
+    sources: Vec<&'static str>,
+    status_width: u32,
+}
+
+/// Bits of the status of a configuration without a domain, which all that are documented are.
+const STATUS_WIDTH: u32 = Status::NAMES.len() as u32 - 1;
+
+/// What every configuration has in common, and where their pages are.
+pub(super) fn common(pages: &[Entry], command: &str) -> Result<String, askama::Error> {
+    let sources = SOURCES.iter().map(|&(name, _)| name).collect();
+    let page = Common { command, pages, sources, status_width: STATUS_WIDTH };
+    Ok(page.render()? + "\n")
+}

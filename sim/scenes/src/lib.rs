@@ -1,0 +1,9 @@
+//! Scenes, and what the pipeline makes of them.
+//!
+//! [`scene`] reads what is to be seen, [`render`] makes pictures in which every highlight is an answer of the pipeline,
+//! and [`specialise`] cuts hardware down to what one scene asks. [`report`] is what a picture comes with.
+
+pub mod render;
+pub mod report;
+pub mod scene;
+pub mod specialise;

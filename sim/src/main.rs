@@ -1,7 +1,0 @@
-//! The `blysk` command.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    sim::cmd::main()
-}

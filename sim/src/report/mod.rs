@@ -1,9 +1,0 @@
-//! The files and figures of a report.
-
-pub mod claims;
-pub mod figures;
-pub mod files;
-pub mod pareto;
-pub mod pareto_figures;
-pub mod render;
-pub mod stability;

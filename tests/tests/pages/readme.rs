@@ -1,0 +1,102 @@
+//! The commands of README work as they are printed, one after the other, in a directory that has nothing but the files
+//! of docs/ they name.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::Command;
+
+use tempfile::TempDir;
+
+use crate::tree::{root, text};
+
+/// A command of README and the exit status that its comment says, 0 where it says none.
+#[derive(Debug, PartialEq, Eq)]
+struct Printed {
+    command: String,
+    status: i32,
+}
+
+/// Commands for a clone of the repository, and those that fetch one: this test is a part of what they do.
+const OF_A_CLONE: [&str; 4] = ["cargo", "git", "make", "cd"];
+
+/// The command on a line of a block of README, such as `$ blysk presets   # a comment`.
+fn printed(line: &str) -> Option<Printed> {
+    let (command, comment) = line.strip_prefix("$ ")?.split_once(" #").unwrap_or((&line[2..], ""));
+    let status = comment
+        .split("exit status ")
+        .nth(1)
+        .and_then(|rest| rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok()));
+    Some(Printed { command: command.trim().to_owned(), status: status.unwrap_or(0) })
+}
+
+/// Whether a command is for a clone: its first word says so, but `make -C` runs what `blysk` wrote.
+fn is_of_a_clone(command: &str) -> bool {
+    let first = command.split(' ').next().expect("a command has a word");
+    OF_A_CLONE.contains(&first) && !command.starts_with("make -C ")
+}
+
+/// The commands of the console blocks of a page, in order.
+fn commands(page: &str) -> Vec<Printed> {
+    let mut block = false;
+    let mut found = Vec::new();
+    for line in page.lines() {
+        if line.starts_with("```") {
+            block = line == "```console";
+        } else if block {
+            found.extend(printed(line));
+        }
+    }
+    found.into_iter().filter(|printed| !is_of_a_clone(&printed.command)).collect()
+}
+
+/// Copies a directory of files.
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).expect("a directory of ours");
+    for entry in fs::read_dir(from).expect("a directory of the tree") {
+        let path = entry.expect("an entry").path();
+        fs::copy(&path, to.join(path.file_name().expect("a name"))).expect("a file");
+    }
+}
+
+fn names(directory: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(directory).expect("a directory of ours");
+    entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8")).collect()
+}
+
+#[test]
+fn its_commands_work_in_an_empty_directory() {
+    let commands = commands(&text("README.md"));
+    assert!(commands.len() > 15, "{commands:?}");
+
+    let (programs, directory) = (TempDir::new().unwrap(), TempDir::new().unwrap());
+    symlink(env!("CARGO_BIN_EXE_blysk-under-test"), programs.path().join("blysk")).unwrap();
+    let path = format!("{}:{}", programs.path().display(), std::env::var("PATH").unwrap());
+    let inputs = ["docs/examples", "docs/scenes"];
+    for input in inputs {
+        copy(&root().join(input), &directory.path().join(input));
+    }
+    let before = inputs.map(|input| names(&directory.path().join(input)));
+
+    for Printed { command, status } in commands {
+        let mut shell = Command::new("bash");
+        shell.args(["-euo", "pipefail", "-c", &command]).current_dir(directory.path()).env("PATH", &path);
+        let run = shell.env_remove("MAKEFLAGS").output().expect("bash is there");
+        let said = [run.stdout.as_slice(), run.stderr.as_slice()].concat();
+        let said = String::from_utf8_lossy(&said);
+        assert_eq!(run.status.code(), Some(status), "$ {command}\n{said}");
+    }
+    // All outputs are below one directory, which .gitignore has.
+    assert_eq!(names(directory.path()), BTreeSet::from(["docs".to_owned(), "results".to_owned()]));
+    assert_eq!(inputs.map(|input| names(&directory.path().join(input))), before);
+}
+
+#[test]
+fn commands_and_their_statuses_are_found() {
+    let page = "$ no\n```console\n$ blysk a --b 1   # words, exit status 1: not so\n$ make test\n\
+                $ make -C results/rtl\nwhat it says\n$ cargo install x\n```\n$ no\n```json\n$ no\n```\n";
+    let found = commands(page);
+    let found: Vec<_> = found.iter().map(|printed| (printed.command.as_str(), printed.status)).collect();
+    assert_eq!(found, [("blysk a --b 1", 1), ("make -C results/rtl", 0)]);
+}
