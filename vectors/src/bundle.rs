@@ -248,7 +248,7 @@ impl<'a> Bundle<'a> {
         }
         let words = Words::of(self.design.datapath());
         let mut files = BTreeMap::new();
-        files.insert(ROM.to_owned(), self.stage_rom(set, &words.rom)?);
+        files.insert(ROM.to_owned(), self.stage_rom(set, ROM)?);
         if let Some(compact) = self.stimulus.compact() {
             files.insert(FAULTS.to_owned(), stage_faults(set, compact)?);
         }
@@ -258,9 +258,11 @@ impl<'a> Bundle<'a> {
         Ok(manifest)
     }
 
-    fn stage_rom(&self, set: &mut OutputSet, layout: &WordLayout) -> Result<Checksum, OutputError> {
+    /// The ROM image, as the file `name`.
+    pub(crate) fn stage_rom(&self, set: &mut OutputSet, name: &str) -> Result<Checksum, OutputError> {
         let rom = self.design.rom();
-        let mut file = Begun::new(set, ROM)?;
+        let layout = &WordLayout::rom(rom.layout());
+        let mut file = Begun::new(set, name)?;
         file.header("ROM image", layout, rom.depth() as u64, &self.command)?;
         for row in rom.rows() {
             file.word(layout, &rom.layout().pack(row))?;

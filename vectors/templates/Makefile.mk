@@ -13,10 +13,10 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .PHONY: icarus verilator control lint waves clean always
 
-TOP       = [[ sources.dut ]]
+TOP       = [[ sources.modules.dut() ]]
 RTL       = [[ rtl.join(" ") ]]
-<%- if !sources.is_own() %>
-# The sources of [[ sources.dut ]].
+<%- if !sources.modules.is_own() %>
+# The sources of [[ sources.modules.dut() ]].
 DUT      ?=
 RTL      += $(DUT)
 <%- endif %>
@@ -45,8 +45,8 @@ control: $(BUILD)/blysk.vvp
 # What a build is made of, by contents: DUT may name another file, or another tool be asked for, and a
 # file's time need not show it.
 $(BUILD)/%.sources: always
-<%- if !sources.is_own() %>
-	@test -n "$(strip $(DUT))" || { echo "say where [[ sources.dut ]] is: make DUT=FILE ..." >&2; exit 1; }
+<%- if !sources.modules.is_own() %>
+	@test -n "$(strip $(DUT))" || { echo "say where [[ sources.modules.dut() ]] is: make DUT=FILE ..." >&2; exit 1; }
 <%- endif %>
 	@mkdir -p $(BUILD)
 	@{ echo "$(IVERILOG) $(VERILATOR)"; cksum $(RTL) blysk_tb.sv; } > $@.new

@@ -3,9 +3,11 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
+use vectors::rtl::Modules;
 use vectors::{Bundle, Strategy, rtl};
 
 use super::bar::Bar;
@@ -27,10 +29,13 @@ pub(super) struct Args {
     /// The directory; it is made where it does not exist.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// What the names of modules, package and files begin with, so that several configurations stand in one design.
+    #[arg(long, value_name = "NAME", default_value = TOP, value_parser = module_name)]
+    prefix: String,
     /// The module under test, where it is your own with the ports of `blysk`. Give its sources to make as DUT=FILE;
     /// only its ports are checked.
-    #[arg(long, value_name = "NAME", default_value = TOP, value_parser = module_name)]
-    dut: String,
+    #[arg(long, value_name = "NAME", value_parser = module_name)]
+    dut: Option<String>,
     /// How vectors are chosen: mixed, corners, even, random or exhaustive.
     #[arg(long, default_value_t)]
     strategy: Strategy,
@@ -48,31 +53,35 @@ fn module_name(text: &str) -> Result<String, NameError> {
 
 impl Args {
     fn command(&self) -> String {
-        let Self { dut, strategy, count, seed, .. } = self;
+        let Self { prefix, dut, strategy, count, seed, .. } = self;
         let configuration = self.configuration.option();
-        let dut = if dut == TOP { String::new() } else { format!(" --dut {dut}") };
-        format!("blysk rtl {configuration}{dut} --strategy {strategy} --count {count} --seed {seed}")
+        let dut = dut.as_ref().filter(|dut| *dut != prefix).map(|dut| format!(" --dut {dut}")).unwrap_or_default();
+        let prefix = if prefix == TOP { String::new() } else { format!(" --prefix {prefix}") };
+        format!("blysk rtl {configuration}{prefix}{dut} --strategy {strategy} --count {count} --seed {seed}")
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    let modules = Modules::new(&args.prefix, args.dut.as_deref()).context("--dut")?;
     let design = args.configuration.design()?;
     let command = args.command();
     let inputs = args.configuration.files();
-    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(args.strategy))?;
+    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(&modules, args.strategy))?;
     let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
     // Every vector goes to the testbench's files and to those of its registers.
     let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
     let watcher = |vectors| bar.advance(vectors);
-    let manifest = rtl::stage(&bundle.watched(&watcher), &args.dut, &command, &mut set)?;
+    let manifest = rtl::stage(&bundle.watched(&watcher), &modules, &command, &mut set)?;
     bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);
-    let dut = if args.dut == TOP { "" } else { " DUT=FILE" };
+    let dut = if modules.is_own() { "" } else { " DUT=FILE" };
     writeln!(
         out,
         "{place}: module {}, latency {} cycles, {} vectors; try: make -C {place} icarus{dut}",
-        args.dut, manifest.hardware.latency, manifest.counts.vectors,
+        modules.dut(),
+        manifest.hardware.latency,
+        manifest.counts.vectors,
     )?;
     Ok(Outcome::Good)
 }

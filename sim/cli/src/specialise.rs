@@ -8,7 +8,7 @@ use clap::Args as ClapArgs;
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::names;
-use hw_model::rtl::TOP;
+use vectors::rtl::Modules;
 use vectors::text_file;
 use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
@@ -89,7 +89,7 @@ impl Args {
     fn names(&self) -> impl Iterator<Item = String> {
         let hardware = [RTL].into_iter().chain(self.synth.then_some(SOURCE_RTL));
         let hardware =
-            hardware.flat_map(|directory| rtl::names(Strategy::Mixed).map(move |name| format!("{directory}/{name}")));
+            hardware.flat_map(|directory| hardware_names().into_iter().map(move |name| format!("{directory}/{name}")));
         let tables = LEFT_OUT.map(|(name, _)| name);
         let own = [CONFIGURATION, CERTIFICATE].into_iter().chain(tables).map(str::to_owned);
         own.chain(hardware)
@@ -197,7 +197,7 @@ impl Made {
         set.within(RTL, |set| hardware(&self.specialised, args, set))?;
         set.within(SOURCE_RTL, |set| {
             // Of another source, it would not be what this was made of.
-            rtl::names(Strategy::Mixed).for_each(|name| set.obsolete(name));
+            hardware_names().iter().for_each(|name| set.obsolete(name));
             if args.synth { hardware(source, args, set) } else { Ok(()) }
         })?;
         if args.synth {
@@ -295,11 +295,16 @@ impl Made {
     }
 }
 
+/// The names of the files of [`hardware`].
+fn hardware_names() -> Vec<String> {
+    rtl::names(&Modules::default(), Strategy::Mixed)
+}
+
 /// The RTL of a design with its testbench and vectors.
 fn hardware(design: &Design, args: &Args, set: &mut OutputSet) -> Result<(), BundleError> {
     let command = args.command();
     let bundle = Bundle::new(design, Strategy::Mixed, args.count, args.seed, &command)?;
-    rtl::stage(&bundle, TOP, &command, set).map(drop)
+    rtl::stage(&bundle, &Modules::default(), &command, set).map(drop)
 }
 
 /// How many files stand beside a certificate that were written with it, each as it was then; nothing where it stands

@@ -13,7 +13,7 @@ use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
 use blysk_tests::rtl::{Failure, failed};
-use blysk_tests::rtl::{fusesoc, netlist_parts, readers, rom_image, specialised, waves};
+use blysk_tests::rtl::{fusesoc, netlist_parts, readers, rom_image, specialised, two_in_one, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -170,6 +170,9 @@ fn run() -> Result<Totals, Failure> {
         .fold(Totals::default(), |sum, part| sum + part);
     let quadratic = design(TWO_MULTIPLIERS)?;
     parts(&emit(&quadratic, "quadratic", Strategy::Mixed, 1)?, "quadratic")?;
+    let schlick = presets::find("schlick").map_or_else(|| failed("no preset schlick"), |preset| design(preset.json))?;
+    let together = two_in_one::check([("bright", &quadratic), ("dull", &schlick)], &simulators)?;
+    println!("{:<14} two configurations in one design {together:>20} vectors", "--prefix");
     planted(&simulators[0])?;
     Ok(total)
 }

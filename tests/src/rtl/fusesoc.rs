@@ -5,7 +5,7 @@ use std::process::Command;
 
 use hw_model::design::Design;
 use hw_model::rtl::{SOURCES, TOP};
-use vectors::rtl::core_name;
+use vectors::rtl::{Modules, core_name};
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
 use super::simulators::{fresh, repository};
@@ -20,7 +20,7 @@ const OWN: &str = "my_highlight";
 /// # Errors
 /// When a verdict is not what it has to be.
 pub fn check(emitted: &Emitted<'_>) -> Result<(), Failure> {
-    let name = core_name(&emitted.design.config().name);
+    let name = core_name(&Modules::default(), &emitted.design.config().name);
     let said = run(&emitted.directory, &["--target", "sim", &name])?;
     expect(&said, "PASS ")?;
     let control = ["--target", "sim", &name, "--expected", "negative_control.mem"];
@@ -35,17 +35,18 @@ pub fn check(emitted: &Emitted<'_>) -> Result<(), Failure> {
 /// When it does not pass.
 pub fn check_dut(design: &Design) -> Result<(), Failure> {
     let directory = fresh("fusesoc_dut")?;
+    let dut = Modules::new(TOP, Some(OWN)).map_err(|error| Failure(error.to_string()))?;
     let written = || -> Result<(), vectors::BundleError> {
         let bundle = Bundle::new(design, Strategy::Mixed, 256, 1, "make rtl")?;
         let mut set = OutputSet::create(&directory)?;
-        rtl::stage(&bundle, OWN, "make rtl", &mut set)?;
+        rtl::stage(&bundle, &dut, "make rtl", &mut set)?;
         let own = SOURCES.map(|(_, text)| text.replace(&format!("module {TOP} #("), &format!("module {OWN} #(")));
         set.write(&format!("{OWN}.sv"), own.concat())?;
         set.commit()?;
         Ok(())
     };
     written().map_err(|error| Failure(error.to_string()))?;
-    let name = core_name(&design.config().name);
+    let name = core_name(&dut, &design.config().name);
     expect(&run(&directory, &["--target", "sim", &name])?, "PASS ")
 }
 

@@ -10,6 +10,7 @@ pub mod replay;
 pub mod rom_image;
 pub mod simulators;
 pub mod specialised;
+pub mod two_in_one;
 pub mod waves;
 pub mod workspace;
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hw_model::design::Design;
-use hw_model::rtl::TOP;
+use vectors::rtl::Modules;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
 use super::simulators::{fresh, repository};
@@ -27,11 +27,24 @@ pub struct Emitted<'a> {
 /// # Errors
 /// When it cannot be written.
 pub fn emit<'a>(design: &'a Design, name: &str, strategy: Strategy, count: u64) -> Result<Emitted<'a>, Failure> {
+    emit_named(design, name, &Modules::default(), (strategy, count))
+}
+
+/// The same with names of its own.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn emit_named<'a>(
+    design: &'a Design,
+    name: &str,
+    modules: &Modules,
+    (strategy, count): (Strategy, u64),
+) -> Result<Emitted<'a>, Failure> {
     let directory = fresh(name)?;
     let command = format!("make rtl, {name}");
     let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {
         let mut set = OutputSet::create(&directory)?;
-        let manifest = rtl::stage(&bundle, TOP, &command, &mut set)?;
+        let manifest = rtl::stage(&bundle, modules, &command, &mut set)?;
         set.commit()?;
         Ok((bundle.vector_count(), manifest.negative_control.vector))
     });

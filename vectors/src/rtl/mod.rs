@@ -1,5 +1,6 @@
 //! The hardware as files: RTL, package, testbench, and what runs them.
 
+mod modules;
 mod package;
 pub mod probes;
 mod project;
@@ -12,14 +13,15 @@ use std::io::Write;
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
+use hw_model::rtl::SOURCES;
 pub use hw_model::rtl::{PACKAGE, TESTBENCH};
-use hw_model::rtl::{SOURCES, TOP};
 
 use crate::bundle::{self, Bundle, BundleError};
 use crate::case::Strategy;
 use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
+pub use modules::Modules;
 pub use package::{package, rounding_number};
 pub use project::core_name;
 pub use save_file::{Names, save_file};
@@ -42,8 +44,8 @@ pub const EXPONENTS: &str = "exponents.mem";
 pub struct Sources<'a> {
     /// The design that the RTL, the package and the testbench are written for.
     pub design: &'a Design,
-    /// The module under test: [`TOP`], or a designer's own with the same ports.
-    pub dut: &'a str,
+    /// What modules are called, and which one is under test.
+    pub modules: &'a Modules,
     /// Vectors in the bundle.
     pub vectors: u64,
     /// The vector whose answer is wrong in the negative control.
@@ -52,23 +54,16 @@ pub struct Sources<'a> {
     pub command: &'a str,
 }
 
-impl Sources<'_> {
-    /// True where the module under test is the project's own, whose registers are known.
-    #[must_use]
-    pub fn is_own(&self) -> bool {
-        self.dut == TOP
-    }
-}
-
 /// The Makefile that runs the testbench.
 pub const MAKEFILE: &str = "Makefile";
 /// The FuseSoC core file.
 pub const CORE: &str = "blysk.core";
 
 /// The names of the files of a directory of hardware.
-pub fn names(strategy: Strategy) -> impl Iterator<Item = &'static str> {
-    let generated = [PACKAGE, TESTBENCH, MAKEFILE, CORE, SAVE_FILE, STAGES, EXPONENTS];
-    SOURCES.into_iter().map(|(name, _)| name).chain(generated).chain(bundle::names(strategy))
+#[must_use]
+pub fn names(modules: &Modules, strategy: Strategy) -> Vec<String> {
+    let plain = [MAKEFILE, SAVE_FILE, STAGES, EXPONENTS].into_iter().chain(bundle::names(strategy));
+    modules.files().chain(plain.map(str::to_owned)).collect()
 }
 
 /// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
@@ -76,20 +71,28 @@ pub fn names(strategy: Strategy) -> impl Iterator<Item = &'static str> {
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn stage(bundle: &Bundle<'_>, dut: &str, command: &str, set: &mut OutputSet) -> Result<Manifest, BundleError> {
+pub fn stage(
+    bundle: &Bundle<'_>,
+    modules: &Modules,
+    command: &str,
+    set: &mut OutputSet,
+) -> Result<Manifest, BundleError> {
     let design = bundle.design();
-    let sources = Sources { design, dut, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
+    let sources = Sources { design, modules, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
     for (name, text) in SOURCES {
-        set.write(name, text)?;
+        set.write(&modules.file(name), modules.text(text))?;
     }
-    set.write(PACKAGE, package(design, command))?;
-    set.write(TESTBENCH, testbench(&sources))?;
-    set.write(MAKEFILE, project::makefile(&sources))?;
-    set.write(CORE, project::core_file(&sources))?;
-    let names = if sources.is_own() { Names::Rtl } else { Names::Ports };
-    set.write(SAVE_FILE, save_file(design.datapath(), names, SCOPE, Some(WAVES)))?;
+    set.write(&modules.file(PACKAGE), modules.text(&package(design, command)))?;
+    set.write(&modules.file(TESTBENCH), modules.text(&testbench(&sources)))?;
+    set.write(MAKEFILE, modules.text(&project::makefile(&sources)))?;
+    set.write(&modules.file(CORE), modules.text(&project::core_file(&sources)))?;
+    let names = if modules.is_own() { Names::Rtl } else { Names::Ports };
+    set.write(SAVE_FILE, save_file(design.datapath(), names, &modules.text(SCOPE), Some(WAVES)))?;
     stage_words(bundle, command, set)?;
     set.write(EXPONENTS, exponents(design, command))?;
+    if let Some(image) = modules.rom_image() {
+        bundle.stage_rom(set, &image)?;
+    }
     bundle.stage(set)
 }
 

@@ -3,7 +3,9 @@
 use askama::Template;
 use hw_model::rtl::SOURCES;
 
-use super::{PACKAGE, Sources};
+use crate::manifest::ROM;
+
+use super::{Modules, PACKAGE, Sources};
 
 /// The text of the Makefile.
 #[must_use]
@@ -14,15 +16,17 @@ pub fn makefile(sources: &Sources<'_>) -> String {
 
 /// What FuseSoC calls the pipeline of a configuration.
 #[must_use]
-pub fn core_name(configuration: &str) -> String {
-    format!("blysk:pipeline:{configuration}:{}", env!("CARGO_PKG_VERSION"))
+pub fn core_name(modules: &Modules, configuration: &str) -> String {
+    let pipeline = if *modules == Modules::default() || !modules.is_own() { "pipeline" } else { modules.dut() };
+    format!("blysk:{pipeline}:{configuration}:{}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The text of the FuseSoC core file.
 #[must_use]
 pub fn core_file(sources: &Sources<'_>) -> String {
-    let vlnv = core_name(&sources.design.config().name);
-    CoreFile { sources, vlnv, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
+    let vlnv = core_name(sources.modules, &sources.design.config().name);
+    let image = sources.modules.rom_image().unwrap_or_else(|| ROM.to_owned());
+    CoreFile { sources, vlnv, image, rtl: rtl(sources) }.render().unwrap_or_default() + "\n"
 }
 
 #[derive(Template)]
@@ -37,11 +41,12 @@ struct Makefile<'a> {
 struct CoreFile<'a> {
     sources: &'a Sources<'a>,
     vlnv: String,
+    image: String,
     rtl: Vec<&'static str>,
 }
 
 /// The package, and the pipeline where it is what is tested.
 fn rtl(sources: &Sources<'_>) -> Vec<&'static str> {
-    let own = SOURCES.iter().filter(|_| sources.is_own()).map(|&(name, _)| name);
+    let own = SOURCES.iter().filter(|_| sources.modules.is_own()).map(|&(name, _)| name);
     std::iter::once(PACKAGE).chain(own).collect()
 }

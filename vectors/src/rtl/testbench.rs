@@ -15,11 +15,11 @@ pub fn testbench(sources: &Sources<'_>) -> String {
     let word = StageWord::of(datapath);
     let probes = probes(datapath);
     let computed: Vec<&Probe> = word.fields.iter().map(|(probe, _)| probe).collect();
-    let white_box = sources.is_own();
+    let white_box = sources.modules.is_own();
     let testbench = Testbench {
         configuration: &sources.design.config().name,
         command: sources.command,
-        dut: sources.dut,
+        dut: sources.modules.dut(),
         white_box,
         vectors: sources.vectors,
         ranks: datapath.rank_count(),

@@ -12,7 +12,9 @@ pub mod rom;
 use std::path::{Path, PathBuf};
 
 use hw_model::design::Design;
+use hw_model::rtl::TOP;
 use vectors::faults::Fault;
+use vectors::rtl::Modules;
 use vectors::{Bundle, OutputSet, rtl};
 
 use super::simulators::{Simulator, fresh};
@@ -63,9 +65,10 @@ impl Bench {
     /// When it cannot be written.
     pub fn new(name: &str, bundle: &Bundle<'_>) -> Result<Self, Failure> {
         let directory = fresh(name)?;
+        let dut = Modules::new(TOP, Some("blysk_mutated")).map_err(|error| Failure(error.to_string()))?;
         let written = || -> Result<(), vectors::BundleError> {
             let mut set = OutputSet::create(&directory)?;
-            rtl::stage(bundle, "blysk_mutated", "make mutants", &mut set)?;
+            rtl::stage(bundle, &dut, "make mutants", &mut set)?;
             set.write("blysk_mutated.sv", WRAPPER)?;
             set.commit()?;
             Ok(())
