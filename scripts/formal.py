@@ -62,7 +62,8 @@ class Property:
 ROUNDING_BUG = Bug("rounding left out", "blysk_round_shift.sv", "assign added = HALF;", "assign added = '0;")
 
 
-ROUNDINGS = {"floor": 0, "nearest even": 2, "toward zero": 3}  # the presets have 1, nearest up
+ROUNDINGS = {name: f"ROUND_{name.replace(' ', '_').upper()}"  # the presets have nearest up
+             for name in ["floor", "nearest even", "toward zero"]}
 WRONG_V = Bug("v of another result", "blysk.sv", ".variable_i(v_here)", ".variable_i(j == DEGREE ? v : v_here)",
               needs="SEVERAL_STAGES")
 
@@ -105,7 +106,7 @@ ALL = [
     ),
     Property(
         "ports", "blysk", RTL, ["rom.sv", "fields.sv", "ports.svh"], inside="blysk", carries_word=True,
-        bugs=[Bug("last register not held", "blysk.sv", ".clk_i, .load_i(load[blysk_pkg::RANKS-1]),",
+        bugs=[Bug("last register not held", "blysk.sv", ".clk_i, .load_i(load[RANKS-1]),",
                   ".clk_i, .load_i(1'b1),")],
     ),
     Property(
@@ -119,8 +120,8 @@ ALL = [
         bugs=[
             Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ",
                 needs="HAS_POLYNOMIAL"),
-            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == blysk_pkg::REGION_TAIL",
-                "tail_x_d = region_d == blysk_pkg::REGION_ZERO", needs="HAS_TAIL"),
+            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == REGION_TAIL",
+                "tail_x_d = region_d == REGION_ZERO", needs="HAS_TAIL"),
             Bug("hand-over not included", "blysk_front_end.sv", "COMPARE'(x) < ", "COMPARE'(x) <= ",
                 needs="SEVERAL_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
@@ -156,7 +157,7 @@ ALL = [
     Property(
         "clamp", "clamp_proof", ["blysk_round_shift", "blysk_clamp"], ["multiply_add.sv", "clamp.sv"],
         bugs=[
-            Bug("greater than 1 passed on", "blysk_clamp.sv", "above ? blysk_pkg::OUTPUT_GREATEST :", "",
+            Bug("greater than 1 passed on", "blysk_clamp.sv", "above ? OUTPUT_GREATEST :", "",
                 needs="HAS_POLYNOMIAL"),
             replace(ROUNDING_BUG, needs="HAS_TAIL"),
         ],
@@ -221,11 +222,15 @@ def with_vectors(text, instead):
 
 
 def replace_once(path, old, new):
-    """What is not there exactly once is an error: a bug that is not planted would be none."""
-    text = path.read_text()
-    if text.count(old) != 1:
-        sys.exit(f"formal: {path.name}: {old!r} stands there {text.count(old)} times, not once")
-    path.write_text(text.replace(old, new))
+    """Tokens in place of others, whatever space is between them, which a formatter may change. What is not there
+    exactly once is an error: a bug that is not planted would be none."""
+    tokens = re.findall(r"\w+|[^\w\s]", old)
+    ends = [r"(?<!\w)" if tokens[0].isidentifier() else "", r"(?!\w)" if tokens[-1].isidentifier() else ""]
+    pattern = r"\s*".join(map(re.escape, tokens)).join(ends)
+    text, times = re.subn(pattern, lambda _: new, path.read_text())
+    if times != 1:
+        sys.exit(f"formal: {path.name}: {old!r} stands there {times} times, not once")
+    path.write_text(text)
 
 
 class Job:

@@ -35,11 +35,48 @@ module blysk #(
   output logic [blysk_pkg::STATUS_WIDTH-1:0]  status_o
 );
 
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int HAS_POLYNOMIAL   = blysk_pkg::HAS_POLYNOMIAL;
+  localparam int HAS_TAIL         = blysk_pkg::HAS_TAIL;
+  localparam int CENTRED          = blysk_pkg::CENTRED;
+  localparam int DEGREE           = blysk_pkg::DEGREE;
+  localparam int SEGMENTS         = blysk_pkg::SEGMENTS;
+  localparam int RANKS            = blysk_pkg::RANKS;
+  localparam int INPUT_WIDTH      = blysk_pkg::INPUT_WIDTH;
+  localparam int X_WIDTH          = blysk_pkg::X_WIDTH;
+  localparam int TAIL_A_WIDTH     = blysk_pkg::TAIL_A_WIDTH;
+  localparam int TAIL_A_STORED    = blysk_pkg::TAIL_A_STORED;
+  localparam int TAIL_A_PLACE     = blysk_pkg::TAIL_A_PLACE;
+  localparam int TAIL_B_WIDTH     = blysk_pkg::TAIL_B_WIDTH;
+  localparam int TAIL_B_STORED    = blysk_pkg::TAIL_B_STORED;
+  localparam int TAIL_B_PLACE     = blysk_pkg::TAIL_B_PLACE;
+  localparam int FIELDS_WIDTH     = blysk_pkg::FIELDS_WIDTH;
+  localparam int V_WIDTH          = blysk_pkg::V_WIDTH;
+  localparam int POLYNOMIAL_WIDTH = blysk_pkg::POLYNOMIAL_WIDTH;
+  localparam int DIVISOR_WIDTH    = blysk_pkg::DIVISOR_WIDTH;
+  localparam int DIGITS_WIDTH     = blysk_pkg::DIGITS_WIDTH;
+  localparam int DIGIT_STAGES     = blysk_pkg::DIGIT_STAGES;
+  localparam int REGION_WIDTH     = blysk_pkg::REGION_WIDTH;
+  localparam int STATUS_WIDTH     = blysk_pkg::STATUS_WIDTH;
+  localparam int STATUS_NO_WORD   = blysk_pkg::STATUS_NO_WORD;
+  localparam logic [32*(DEGREE+1)-1:0]          C_WIDTH      = blysk_pkg::C_WIDTH;
+  localparam logic [32*(DEGREE+1)-1:0]          C_SIGNED     = blysk_pkg::C_SIGNED;
+  localparam logic [32*SEGMENTS*(DEGREE+1)-1:0] C_PLACE      = blysk_pkg::C_PLACE;
+  localparam logic [32*(DEGREE+1)-1:0]          C_CARRIED    = blysk_pkg::C_CARRIED;
+  localparam logic [32*(DEGREE+1)-1:0]          T_WIDTH      = blysk_pkg::T_WIDTH;
+  localparam logic [32*(DEGREE+1)-1:0]          T_SIGNED     = blysk_pkg::T_SIGNED;
+  localparam logic [32*(DEGREE+1)-1:0]          T_PRODUCT_UP = blysk_pkg::T_PRODUCT_UP;
+  localparam logic [32*(DEGREE+1)-1:0]          T_ADDEND_UP  = blysk_pkg::T_ADDEND_UP;
+  localparam logic [32*(DEGREE+1)-1:0]          T_RESULT_UP  = blysk_pkg::T_RESULT_UP;
+  localparam logic [32*(DEGREE+1)-1:0]          T_DROP       = blysk_pkg::T_DROP;
+  localparam logic [32*(DEGREE+1)-1:0]          T_SUM_WIDTH  = blysk_pkg::T_SUM_WIDTH;
+  localparam logic [32*(DEGREE+1)-1:0]          T_ROUNDING   = blysk_pkg::T_ROUNDING;
+
   // ---- Handshake ----------------------------------------------------------------------------------
-  logic [blysk_pkg::RANKS-1:0] load;
+  logic [RANKS-1:0] load;
 
   blysk_handshake #(
-    .RANKS(blysk_pkg::RANKS)
+    .RANKS(RANKS)
   ) handshake (
     .clk_i, .rst_i,
     .in_valid_i, .in_ready_o, .out_valid_o, .out_ready_i,
@@ -47,15 +84,15 @@ module blysk #(
   );
 
   // ---- Rank 0: fetch ------------------------------------------------------------------------------
-  logic [blysk_pkg::INPUT_WIDTH-1:0]  x_q;
-  logic                               no_word;
-  logic [blysk_pkg::FIELDS_WIDTH-1:0] fields;   // of the ROM word, and those that are constants
+  logic [INPUT_WIDTH-1:0]  x_q;
+  logic                    no_word;
+  logic [FIELDS_WIDTH-1:0] fields;   // of the ROM word, and those that are constants
 
   // The status as far as it is known.
-  logic [blysk_pkg::STATUS_WIDTH-1:0] fetch_status;
+  logic [STATUS_WIDTH-1:0] fetch_status;
   always_comb begin
-    fetch_status                            = '0;
-    fetch_status[blysk_pkg::STATUS_NO_WORD] = no_word;
+    fetch_status                 = '0;
+    fetch_status[STATUS_NO_WORD] = no_word;
   end
 
   always_ff @(posedge clk_i) begin
@@ -69,11 +106,11 @@ module blysk #(
   );
 
   // ---- Rank 1: front end --------------------------------------------------------------------------
-  logic [blysk_pkg::V_WIDTH-1:0]      v;
-  logic [blysk_pkg::X_WIDTH-1:0]      tail_x;
-  logic [blysk_pkg::REGION_WIDTH-1:0] region;
-  logic [blysk_pkg::STATUS_WIDTH-1:0] status;
-  logic [blysk_pkg::SEGMENTS-1:0]     beyond;
+  logic [V_WIDTH-1:0]      v;
+  logic [X_WIDTH-1:0]      tail_x;
+  logic [REGION_WIDTH-1:0] region;
+  logic [STATUS_WIDTH-1:0] status;
+  logic [SEGMENTS-1:0]     beyond;
 
   blysk_front_end front_end (
     .clk_i, .load_i(load[1]),
@@ -82,22 +119,19 @@ module blysk #(
   );
 
   // ---- The middle ranks: the polynomial -----------------------------------------------------------
-  logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0] t_waited;
+  logic [POLYNOMIAL_WIDTH-1:0] t_waited;
 
-  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : polynomial
-    localparam int DEGREE   = blysk_pkg::DEGREE;
-    localparam int SEGMENTS = blysk_pkg::SEGMENTS;
-    localparam int V_WIDTH  = blysk_pkg::V_WIDTH;
+  if (HAS_POLYNOMIAL != 0) begin : polynomial
 
     // Coefficient i of the segment that answers waits for the stage that needs it: the two highest for stage 1, each
     // other for the stage after.
     genvar i, k;
     for (i = 0; i <= DEGREE; i = i + 1) begin : coefficient
-      localparam int WIDTH = blysk_pkg::C_WIDTH[32*i+:32];
-      localparam int RANKS = i == DEGREE ? 1 : DEGREE - i;
+      localparam int WIDTH = C_WIDTH[32*i+:32];
+      localparam int HELD  = i == DEGREE ? 1 : DEGREE - i;
       logic [WIDTH-1:0] chosen, at_stage;
       for (k = 0; k < SEGMENTS; k = k + 1) begin : segment
-        localparam int PLACE = blysk_pkg::C_PLACE[32*(k*(DEGREE+1)+i)+:32];
+        localparam int PLACE = C_PLACE[32*(k*(DEGREE+1)+i)+:32];
         // Of segment k, or of the one before that answers.
         logic [WIDTH-1:0] choice;
         if (k == 0) begin : first
@@ -107,8 +141,8 @@ module blysk #(
         end
       end
       assign chosen = segment[SEGMENTS-1].choice;
-      blysk_delay #(.WIDTH(WIDTH), .RANKS(RANKS), .STORED(blysk_pkg::C_CARRIED[32*i+:32])) delay (
-        .clk_i, .load_i(load[RANKS:1]), .value_i(chosen), .value_o(at_stage));
+      blysk_delay #(.WIDTH(WIDTH), .RANKS(HELD), .STORED(C_CARRIED[32*i+:32])) delay (
+        .clk_i, .load_i(load[HELD:1]), .value_i(chosen), .value_o(at_stage));
     end
 
     // Segment 0 needs no bit: it answers where no other one does.
@@ -118,12 +152,12 @@ module blysk #(
     // Stage j: t(j) = c(DEGREE - j) +- t(j - 1)*v, where t(0) is the highest coefficient.
     genvar j;
     for (j = 1; j <= DEGREE; j = j + 1) begin : stage
-      localparam int T_WIDTH = blysk_pkg::T_WIDTH[32*j+:32];
-      localparam int M_WIDTH = blysk_pkg::T_WIDTH[32*(j-1)+:32];
-      localparam int A_WIDTH = blysk_pkg::C_WIDTH[32*(DEGREE-j)+:32];
+      localparam int M_WIDTH = T_WIDTH[32*(j-1)+:32];
+      localparam int A_WIDTH = C_WIDTH[32*(DEGREE-j)+:32];
+      localparam int R_WIDTH = T_WIDTH[32*j+:32];
       logic [V_WIDTH-1:0] v_here;
       logic [M_WIDTH-1:0] multiplicand;
-      logic [T_WIDTH-1:0] t;
+      logic [R_WIDTH-1:0] t;
 
       if (j == 1) begin : first
         assign v_here       = v;
@@ -135,13 +169,13 @@ module blysk #(
       end
 
       blysk_stage #(
-        .MULTIPLICAND_WIDTH(M_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::T_SIGNED[32*(j-1)+:32]),
+        .MULTIPLICAND_WIDTH(M_WIDTH), .MULTIPLICAND_SIGNED(T_SIGNED[32*(j-1)+:32]),
         .VARIABLE_WIDTH(V_WIDTH),
-        .ADDEND_WIDTH(A_WIDTH), .ADDEND_SIGNED(blysk_pkg::C_SIGNED[32*(DEGREE-j)+:32]),
-        .T_WIDTH(T_WIDTH), .SUBTRACT(blysk_pkg::CENTRED),
-        .PRODUCT_UP(blysk_pkg::T_PRODUCT_UP[32*j+:32]), .ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32]),
-        .RESULT_UP(blysk_pkg::T_RESULT_UP[32*j+:32]), .DROP(blysk_pkg::T_DROP[32*j+:32]),
-        .SUM_WIDTH(blysk_pkg::T_SUM_WIDTH[32*j+:32]), .ROUNDING(blysk_pkg::T_ROUNDING[32*j+:32])
+        .ADDEND_WIDTH(A_WIDTH), .ADDEND_SIGNED(C_SIGNED[32*(DEGREE-j)+:32]),
+        .T_WIDTH(R_WIDTH), .SUBTRACT(CENTRED),
+        .PRODUCT_UP(T_PRODUCT_UP[32*j+:32]), .ADDEND_UP(T_ADDEND_UP[32*j+:32]),
+        .RESULT_UP(T_RESULT_UP[32*j+:32]), .DROP(T_DROP[32*j+:32]),
+        .SUM_WIDTH(T_SUM_WIDTH[32*j+:32]), .ROUNDING(T_ROUNDING[32*j+:32])
       ) multiply_add (
         .clk_i, .load_i(load[j+1]),
         .multiplicand_i(multiplicand), .variable_i(v_here), .addend_i(coefficient[DEGREE-j].at_stage), .t_o(t)
@@ -149,10 +183,10 @@ module blysk #(
     end
 
     // The last result is in rank DEGREE + 1; the clamp takes it from rank RANKS - 2.
-    localparam int WAIT = blysk_pkg::RANKS - 3 - DEGREE;
+    localparam int WAIT = RANKS - 3 - DEGREE;
     if (WAIT > 0) begin : wait_for_tail
-      blysk_delay #(.WIDTH(blysk_pkg::POLYNOMIAL_WIDTH), .RANKS(WAIT)) t_delay (
-        .clk_i, .load_i(load[blysk_pkg::RANKS-2:DEGREE+2]), .value_i(stage[DEGREE].t), .value_o(t_waited));
+      blysk_delay #(.WIDTH(POLYNOMIAL_WIDTH), .RANKS(WAIT)) t_delay (
+        .clk_i, .load_i(load[RANKS-2:DEGREE+2]), .value_i(stage[DEGREE].t), .value_o(t_waited));
     end else begin : no_wait
       assign t_waited = stage[DEGREE].t;
     end
@@ -163,22 +197,22 @@ module blysk #(
   end
 
   // ---- The middle ranks: the tail -----------------------------------------------------------------
-  logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_waited;
-  logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_waited;
+  logic [DIVISOR_WIDTH-1:0] remainder_waited;
+  logic [DIGITS_WIDTH-1:0]  digits_waited;
 
-  if (blysk_pkg::HAS_TAIL != 0) begin : tail
+  if (HAS_TAIL != 0) begin : tail
     // The rank of the last quotient bits.
-    localparam int LAST = 2 + blysk_pkg::DIGIT_STAGES;
-    logic [blysk_pkg::TAIL_A_WIDTH-1:0]  a, a_at_1;
-    logic [blysk_pkg::TAIL_B_WIDTH-1:0]  b, b_at_1;
-    assign a = fields[blysk_pkg::TAIL_A_PLACE+:blysk_pkg::TAIL_A_WIDTH];
-    assign b = fields[blysk_pkg::TAIL_B_PLACE+:blysk_pkg::TAIL_B_WIDTH];
-    logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder;
-    logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits;
+    localparam int LAST = 2 + DIGIT_STAGES;
+    logic [TAIL_A_WIDTH-1:0] a, a_at_1;
+    logic [TAIL_B_WIDTH-1:0] b, b_at_1;
+    assign a = fields[TAIL_A_PLACE+:TAIL_A_WIDTH];
+    assign b = fields[TAIL_B_PLACE+:TAIL_B_WIDTH];
+    logic [DIVISOR_WIDTH-1:0] remainder;
+    logic [DIGITS_WIDTH-1:0]  digits;
 
-    blysk_delay #(.WIDTH(blysk_pkg::TAIL_A_WIDTH), .RANKS(1), .STORED(blysk_pkg::TAIL_A_STORED)) a_delay (
+    blysk_delay #(.WIDTH(TAIL_A_WIDTH), .RANKS(1), .STORED(TAIL_A_STORED)) a_delay (
       .clk_i, .load_i(load[1]), .value_i(a), .value_o(a_at_1));
-    blysk_delay #(.WIDTH(blysk_pkg::TAIL_B_WIDTH), .RANKS(1), .STORED(blysk_pkg::TAIL_B_STORED)) b_delay (
+    blysk_delay #(.WIDTH(TAIL_B_WIDTH), .RANKS(1), .STORED(TAIL_B_STORED)) b_delay (
       .clk_i, .load_i(load[1]), .value_i(b), .value_o(b_at_1));
 
     blysk_tail divider (
@@ -187,11 +221,11 @@ module blysk #(
       .remainder_o(remainder), .digits_o(digits)
     );
 
-    if (blysk_pkg::RANKS - 2 > LAST) begin : wait_for_polynomial
-      blysk_delay #(.WIDTH(blysk_pkg::DIVISOR_WIDTH), .RANKS(blysk_pkg::RANKS - 2 - LAST)) remainder_delay (
-        .clk_i, .load_i(load[blysk_pkg::RANKS-2:LAST+1]), .value_i(remainder), .value_o(remainder_waited));
-      blysk_delay #(.WIDTH(blysk_pkg::DIGITS_WIDTH), .RANKS(blysk_pkg::RANKS - 2 - LAST)) digits_delay (
-        .clk_i, .load_i(load[blysk_pkg::RANKS-2:LAST+1]), .value_i(digits), .value_o(digits_waited));
+    if (RANKS - 2 > LAST) begin : wait_for_polynomial
+      blysk_delay #(.WIDTH(DIVISOR_WIDTH), .RANKS(RANKS - 2 - LAST)) remainder_delay (
+        .clk_i, .load_i(load[RANKS-2:LAST+1]), .value_i(remainder), .value_o(remainder_waited));
+      blysk_delay #(.WIDTH(DIGITS_WIDTH), .RANKS(RANKS - 2 - LAST)) digits_delay (
+        .clk_i, .load_i(load[RANKS-2:LAST+1]), .value_i(digits), .value_o(digits_waited));
     end else begin : no_wait
       assign remainder_waited = remainder;
       assign digits_waited    = digits;
@@ -204,17 +238,17 @@ module blysk #(
   end
 
   // ---- Region and status go along -----------------------------------------------------------------
-  logic [blysk_pkg::REGION_WIDTH-1:0] region_waited;
-  logic [blysk_pkg::STATUS_WIDTH-1:0] status_waited;
+  logic [REGION_WIDTH-1:0] region_waited;
+  logic [STATUS_WIDTH-1:0] status_waited;
 
-  blysk_delay #(.WIDTH(blysk_pkg::REGION_WIDTH), .RANKS(blysk_pkg::RANKS - 3)) region_delay (
-    .clk_i, .load_i(load[blysk_pkg::RANKS-2:2]), .value_i(region), .value_o(region_waited));
-  blysk_delay #(.WIDTH(blysk_pkg::STATUS_WIDTH), .RANKS(blysk_pkg::RANKS - 3)) status_delay (
-    .clk_i, .load_i(load[blysk_pkg::RANKS-2:2]), .value_i(status), .value_o(status_waited));
+  blysk_delay #(.WIDTH(REGION_WIDTH), .RANKS(RANKS - 3)) region_delay (
+    .clk_i, .load_i(load[RANKS-2:2]), .value_i(region), .value_o(region_waited));
+  blysk_delay #(.WIDTH(STATUS_WIDTH), .RANKS(RANKS - 3)) status_delay (
+    .clk_i, .load_i(load[RANKS-2:2]), .value_i(status), .value_o(status_waited));
 
   // ---- Last rank: clamp ---------------------------------------------------------------------------
   blysk_clamp clamp (
-    .clk_i, .load_i(load[blysk_pkg::RANKS-1]),
+    .clk_i, .load_i(load[RANKS-1]),
     .region_i(region_waited), .status_i(status_waited),
     .t_i(t_waited), .remainder_i(remainder_waited), .digits_i(digits_waited),
     .intensity_o, .status_o

@@ -13,33 +13,49 @@
 module blysk_clamp (
   input  logic                                clk_i,
   input  logic                                load_i,
-  input  logic [blysk_pkg::REGION_WIDTH-1:0]  region_i,
-  input  logic [blysk_pkg::STATUS_WIDTH-1:0]  status_i,
-  input  logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0]      t_i,
-  input  logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_i,
-  input  logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_i,
-  output logic [blysk_pkg::OUTPUT_WIDTH-1:0]  intensity_o,
-  output logic [blysk_pkg::STATUS_WIDTH-1:0]  status_o
+  input  logic [blysk_pkg::REGION_WIDTH-1:0]     region_i,
+  input  logic [blysk_pkg::STATUS_WIDTH-1:0]     status_i,
+  input  logic [blysk_pkg::POLYNOMIAL_WIDTH-1:0] t_i,
+  input  logic [blysk_pkg::DIVISOR_WIDTH-1:0]    remainder_i,
+  input  logic [blysk_pkg::DIGITS_WIDTH-1:0]     digits_i,
+  output logic [blysk_pkg::OUTPUT_WIDTH-1:0]     intensity_o,
+  output logic [blysk_pkg::STATUS_WIDTH-1:0]     status_o
 );
 
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int HAS_POLYNOMIAL         = blysk_pkg::HAS_POLYNOMIAL;
+  localparam int HAS_TAIL               = blysk_pkg::HAS_TAIL;
+  localparam int OUTPUT_WIDTH           = blysk_pkg::OUTPUT_WIDTH;
+  localparam int POLYNOMIAL_EXCEEDS_ONE = blysk_pkg::POLYNOMIAL_EXCEEDS_ONE;
+  localparam int POLYNOMIAL_WIDTH       = blysk_pkg::POLYNOMIAL_WIDTH;
+  localparam int POLYNOMIAL_SIGNED      = blysk_pkg::POLYNOMIAL_SIGNED;
+  localparam int DIGITS_WIDTH           = blysk_pkg::DIGITS_WIDTH;
+  localparam int QUOTIENT_ROUNDING      = blysk_pkg::QUOTIENT_ROUNDING;
+  localparam int REGION_WIDTH           = blysk_pkg::REGION_WIDTH;
+  localparam int STATUS_WIDTH           = blysk_pkg::STATUS_WIDTH;
+  localparam int STATUS_CLAMPED         = blysk_pkg::STATUS_CLAMPED;
+  localparam logic [OUTPUT_WIDTH-1:0] OUTPUT_GREATEST   = blysk_pkg::OUTPUT_GREATEST;
+  localparam logic [REGION_WIDTH-1:0] REGION_POLYNOMIAL = blysk_pkg::REGION_POLYNOMIAL;
+  localparam logic [REGION_WIDTH-1:0] REGION_TAIL       = blysk_pkg::REGION_TAIL;
+
   // ---- The polynomial -----------------------------------------------------------------------------
-  logic [blysk_pkg::OUTPUT_WIDTH-1:0] polynomial;
+  logic [OUTPUT_WIDTH-1:0] polynomial;
   logic                    clamped;
 
-  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : clamp
+  if (HAS_POLYNOMIAL != 0) begin : clamp
     logic below, above;
-    if (blysk_pkg::POLYNOMIAL_SIGNED != 0) begin : signed_t
-      assign below = t_i[blysk_pkg::POLYNOMIAL_WIDTH-1];
+    if (POLYNOMIAL_SIGNED != 0) begin : signed_t
+      assign below = t_i[POLYNOMIAL_WIDTH-1];
     end else begin : unsigned_t
       assign below = 1'b0;
     end
-    if (blysk_pkg::POLYNOMIAL_EXCEEDS_ONE != 0) begin : wide_t
-      assign above = !below && t_i > blysk_pkg::POLYNOMIAL_WIDTH'(blysk_pkg::OUTPUT_GREATEST);
+    if (POLYNOMIAL_EXCEEDS_ONE != 0) begin : wide_t
+      assign above = !below && t_i > POLYNOMIAL_WIDTH'(OUTPUT_GREATEST);
     end else begin : narrow_t
       assign above = 1'b0;
     end
-    assign polynomial = below ? '0 : above ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(t_i);
-    assign clamped    = region_i == blysk_pkg::REGION_POLYNOMIAL && (below || above);
+    assign polynomial = below ? '0 : above ? OUTPUT_GREATEST : OUTPUT_WIDTH'(t_i);
+    assign clamped    = region_i == REGION_POLYNOMIAL && (below || above);
   end else begin : no_clamp
     assign polynomial = '0;
     assign clamped    = 1'b0;
@@ -48,22 +64,22 @@ module blysk_clamp (
   end
 
   // ---- The quotient -------------------------------------------------------------------------------
-  logic [blysk_pkg::OUTPUT_WIDTH-1:0] quotient;
+  logic [OUTPUT_WIDTH-1:0] quotient;
 
-  if (blysk_pkg::HAS_TAIL != 0) begin : finish
+  if (HAS_TAIL != 0) begin : finish
     localparam int GUARD_BITS = 2;
     // A sign, a carry, the quotient, the sticky bit; DIGITS_WIDTH bits are left after the rounding.
-    localparam int WIDE = blysk_pkg::DIGITS_WIDTH + 3;
+    localparam int WIDE = DIGITS_WIDTH + 3;
     logic signed [WIDE-1:0]  wide;
-    logic [blysk_pkg::DIGITS_WIDTH-1:0] rounded;
+    logic [DIGITS_WIDTH-1:0] rounded;
     assign wide = {2'b00, digits_i, |remainder_i};
     blysk_round_shift #(
-      .IN_WIDTH(WIDE), .DROP(GUARD_BITS), .OUT_WIDTH(blysk_pkg::DIGITS_WIDTH), .MODE(blysk_pkg::QUOTIENT_ROUNDING)
+      .IN_WIDTH(WIDE), .DROP(GUARD_BITS), .OUT_WIDTH(DIGITS_WIDTH), .MODE(QUOTIENT_ROUNDING)
     ) round_quotient (
       .value_i(wide), .rounded_o(rounded)
     );
-    assign quotient = rounded > blysk_pkg::DIGITS_WIDTH'(blysk_pkg::OUTPUT_GREATEST)
-        ? blysk_pkg::OUTPUT_GREATEST : blysk_pkg::OUTPUT_WIDTH'(rounded);
+    assign quotient = rounded > DIGITS_WIDTH'(OUTPUT_GREATEST)
+        ? OUTPUT_GREATEST : OUTPUT_WIDTH'(rounded);
   end else begin : no_finish
     assign quotient = '0;
     logic unused;
@@ -71,17 +87,17 @@ module blysk_clamp (
   end
 
   // ---- The answer ---------------------------------------------------------------------------------
-  logic [blysk_pkg::OUTPUT_WIDTH-1:0] intensity_d, intensity_q;
-  logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
+  logic [OUTPUT_WIDTH-1:0] intensity_d, intensity_q;
+  logic [STATUS_WIDTH-1:0] status_d, status_q;
 
   always_comb begin
     case (region_i)
-      blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;
-      blysk_pkg::REGION_TAIL:       intensity_d = quotient;
+      REGION_POLYNOMIAL: intensity_d = polynomial;
+      REGION_TAIL:       intensity_d = quotient;
       default:           intensity_d = '0;
     endcase
     status_d                 = status_i;
-    status_d[blysk_pkg::STATUS_CLAMPED] = clamped;
+    status_d[STATUS_CLAMPED] = clamped;
   end
 
   always_ff @(posedge clk_i) begin

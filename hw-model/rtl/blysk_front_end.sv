@@ -38,42 +38,78 @@ module blysk_front_end (
   output logic [blysk_pkg::STATUS_WIDTH-1:0] status_o
 );
 
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int HAS_POLYNOMIAL          = blysk_pkg::HAS_POLYNOMIAL;
+  localparam int HAS_TAIL                = blysk_pkg::HAS_TAIL;
+  localparam int CENTRED                 = blysk_pkg::CENTRED;
+  localparam int SEGMENTS                = blysk_pkg::SEGMENTS;
+  localparam int INPUT_WIDTH             = blysk_pkg::INPUT_WIDTH;
+  localparam int INPUT_SIGNED            = blysk_pkg::INPUT_SIGNED;
+  localparam int INPUT_FRACTION          = blysk_pkg::INPUT_FRACTION;
+  localparam int INPUT_EXCEEDS_ONE       = blysk_pkg::INPUT_EXCEEDS_ONE;
+  localparam int X_WIDTH                 = blysk_pkg::X_WIDTH;
+  localparam int CUT_WIDTH               = blysk_pkg::CUT_WIDTH;
+  localparam int CUT_PLACE               = blysk_pkg::CUT_PLACE;
+  localparam int CUT_UP                  = blysk_pkg::CUT_UP;
+  localparam int CUT_COMPARE_WIDTH       = blysk_pkg::CUT_COMPARE_WIDTH;
+  localparam int HAND_OVER_UP            = blysk_pkg::HAND_OVER_UP;
+  localparam int HAND_OVER_COMPARE_WIDTH = blysk_pkg::HAND_OVER_COMPARE_WIDTH;
+  localparam int SHIFT_COMMON_WIDTH      = blysk_pkg::SHIFT_COMMON_WIDTH;
+  localparam int U_UP                    = blysk_pkg::U_UP;
+  localparam int U_DROP                  = blysk_pkg::U_DROP;
+  localparam int U_ROUNDING              = blysk_pkg::U_ROUNDING;
+  localparam int V_WIDTH                 = blysk_pkg::V_WIDTH;
+  localparam int REGION_WIDTH            = blysk_pkg::REGION_WIDTH;
+  localparam int STATUS_WIDTH            = blysk_pkg::STATUS_WIDTH;
+  localparam int STATUS_NO_WORD          = blysk_pkg::STATUS_NO_WORD;
+  localparam int STATUS_ABOVE_ONE        = blysk_pkg::STATUS_ABOVE_ONE;
+  localparam int STATUS_FACING_AWAY      = blysk_pkg::STATUS_FACING_AWAY;
+  localparam int STATUS_CLAMPED          = blysk_pkg::STATUS_CLAMPED;
+  localparam logic [X_WIDTH-1:0]      X_GREATEST        = blysk_pkg::X_GREATEST;
+  localparam logic [32*SEGMENTS-1:0]  SHIFT_WIDTHS      = blysk_pkg::SHIFT_WIDTHS;
+  localparam logic [32*SEGMENTS-1:0]  SHIFT_PLACES      = blysk_pkg::SHIFT_PLACES;
+  localparam logic [32*SEGMENTS-1:0]  HAND_OVER_WIDTHS  = blysk_pkg::HAND_OVER_WIDTHS;
+  localparam logic [32*SEGMENTS-1:0]  HAND_OVER_PLACES  = blysk_pkg::HAND_OVER_PLACES;
+  localparam logic [REGION_WIDTH-1:0] REGION_ZERO       = blysk_pkg::REGION_ZERO;
+  localparam logic [REGION_WIDTH-1:0] REGION_POLYNOMIAL = blysk_pkg::REGION_POLYNOMIAL;
+  localparam logic [REGION_WIDTH-1:0] REGION_TAIL       = blysk_pkg::REGION_TAIL;
+
   // ---- Clamp x to [0, 1] --------------------------------------------------------------------------
   logic               facing_away, above_one;
-  logic [blysk_pkg::X_WIDTH-1:0] x;
+  logic [X_WIDTH-1:0] x;
 
-  if (blysk_pkg::INPUT_SIGNED != 0) begin : signed_input
-    assign facing_away = x_i[blysk_pkg::INPUT_WIDTH-1];
+  if (INPUT_SIGNED != 0) begin : signed_input
+    assign facing_away = x_i[INPUT_WIDTH-1];
   end else begin : unsigned_input
     assign facing_away = 1'b0;
   end
-  if (blysk_pkg::INPUT_EXCEEDS_ONE != 0) begin : wide_input
-    assign above_one = !facing_away && x_i > blysk_pkg::INPUT_WIDTH'(blysk_pkg::X_GREATEST);
+  if (INPUT_EXCEEDS_ONE != 0) begin : wide_input
+    assign above_one = !facing_away && x_i > INPUT_WIDTH'(X_GREATEST);
   end else begin : narrow_input
     assign above_one = 1'b0;
   end
-  assign x = facing_away ? '0 : above_one ? blysk_pkg::X_GREATEST : x_i[blysk_pkg::X_WIDTH-1:0];
+  assign x = facing_away ? '0 : above_one ? X_GREATEST : x_i[X_WIDTH-1:0];
 
   // ---- Which part answers -------------------------------------------------------------------------
-  logic [blysk_pkg::REGION_WIDTH-1:0] region_d, region_q;
+  logic [REGION_WIDTH-1:0] region_d, region_q;
   logic                    above_cut, no_word;
-  assign no_word = status_i[blysk_pkg::STATUS_NO_WORD];
+  assign no_word = status_i[STATUS_NO_WORD];
 
-  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : cut
-    logic [blysk_pkg::CUT_WIDTH-1:0]         of_row;
-    logic [blysk_pkg::CUT_COMPARE_WIDTH-1:0] least_x;
-    assign of_row    = fields_i[blysk_pkg::CUT_PLACE+:blysk_pkg::CUT_WIDTH];
-    assign least_x   = blysk_pkg::CUT_COMPARE_WIDTH'(of_row) << blysk_pkg::CUT_UP;
-    assign above_cut = blysk_pkg::CUT_COMPARE_WIDTH'(x) >= least_x;
+  if (HAS_POLYNOMIAL != 0) begin : cut
+    logic [CUT_WIDTH-1:0]         of_row;
+    logic [CUT_COMPARE_WIDTH-1:0] least_x;
+    assign of_row    = fields_i[CUT_PLACE+:CUT_WIDTH];
+    assign least_x   = CUT_COMPARE_WIDTH'(of_row) << CUT_UP;
+    assign above_cut = CUT_COMPARE_WIDTH'(x) >= least_x;
   end else begin : no_cut
     assign above_cut = 1'b0;
   end
 
   always_comb begin
-    region_d = blysk_pkg::REGION_ZERO;
+    region_d = REGION_ZERO;
     if (!no_word && !facing_away) begin
-      if (above_cut)          region_d = blysk_pkg::REGION_POLYNOMIAL;
-      else if (blysk_pkg::HAS_TAIL != 0) region_d = blysk_pkg::REGION_TAIL;
+      if (above_cut)          region_d = REGION_POLYNOMIAL;
+      else if (HAS_TAIL != 0) region_d = REGION_TAIL;
     end
   end
 
@@ -82,67 +118,65 @@ module blysk_front_end (
   end
   assign region_o = region_q;
 
-  // ---- Which segment -------------------------------------------------------------------------------
+  // ---- Which segment ------------------------------------------------------------------------------
   // Bit k: x lies below the hand-over to segment k. The highest bit set is the segment that answers.
   assign beyond_o[0] = 1'b0;
 
   // Where v counts from (start), and the places it is moved up (shift): of segment k, or of the one before it that
   // answers.
-  localparam int SEGMENTS   = blysk_pkg::SEGMENTS;
-  localparam int S_WIDTH    = blysk_pkg::INPUT_FRACTION + 1;
-  localparam int SHIFT_BITS = blysk_pkg::SHIFT_COMMON_WIDTH;
+  localparam int S_WIDTH = INPUT_FRACTION + 1;
 
   genvar k;
   generate
     for (k = 0; k < SEGMENTS; k = k + 1) begin : segment
-      localparam int SHIFT_WIDTH = blysk_pkg::SHIFT_WIDTHS[32*k+:32];
-      localparam int SHIFT_PLACE = blysk_pkg::SHIFT_PLACES[32*k+:32];
-      logic [SHIFT_BITS-1:0] own_shift, shift;
-      logic [S_WIDTH-1:0]    start;
-      if (blysk_pkg::CENTRED != 0 && blysk_pkg::HAS_POLYNOMIAL != 0) begin : shifted
-        assign own_shift = SHIFT_BITS'(fields_i[SHIFT_PLACE+:SHIFT_WIDTH]);
+      localparam int SHIFT_WIDTH = SHIFT_WIDTHS[32*k+:32];
+      localparam int SHIFT_PLACE = SHIFT_PLACES[32*k+:32];
+      logic [SHIFT_COMMON_WIDTH-1:0] own_shift, shift;
+      logic [S_WIDTH-1:0]            start;
+      if (CENTRED != 0 && HAS_POLYNOMIAL != 0) begin : shifted
+        assign own_shift = SHIFT_COMMON_WIDTH'(fields_i[SHIFT_PLACE+:SHIFT_WIDTH]);
       end else begin : not_shifted
         assign own_shift = '0;
       end
 
       if (k == 0) begin : first
-        assign start = S_WIDTH'(1) << blysk_pkg::INPUT_FRACTION;
+        assign start = S_WIDTH'(1) << INPUT_FRACTION;
         assign shift = own_shift;
       end else begin : further
-        localparam int WIDTH   = blysk_pkg::HAND_OVER_WIDTHS[32*k+:32];
-        localparam int PLACE   = blysk_pkg::HAND_OVER_PLACES[32*k+:32];
-        localparam int COMPARE = blysk_pkg::HAND_OVER_COMPARE_WIDTH;
+        localparam int WIDTH   = HAND_OVER_WIDTHS[32*k+:32];
+        localparam int PLACE   = HAND_OVER_PLACES[32*k+:32];
+        localparam int COMPARE = HAND_OVER_COMPARE_WIDTH;
         logic [WIDTH-1:0]   of_row;
         logic [COMPARE-1:0] hand_over;
         assign of_row      = fields_i[PLACE+:WIDTH];
-        assign hand_over   = COMPARE'(of_row) << blysk_pkg::HAND_OVER_UP;
-        assign beyond_o[k] = region_d == blysk_pkg::REGION_POLYNOMIAL && COMPARE'(x) < hand_over;
-        assign start       = beyond_o[k] ? S_WIDTH'(of_row) << blysk_pkg::HAND_OVER_UP : segment[k-1].start;
+        assign hand_over   = COMPARE'(of_row) << HAND_OVER_UP;
+        assign beyond_o[k] = region_d == REGION_POLYNOMIAL && COMPARE'(x) < hand_over;
+        assign start       = beyond_o[k] ? S_WIDTH'(of_row) << HAND_OVER_UP : segment[k-1].start;
         assign shift       = beyond_o[k] ? own_shift : segment[k-1].shift;
       end
     end
   endgenerate
 
   // ---- The polynomial's variable: x, or u = (start - x) * 2^shift ---------------------------------
-  if (blysk_pkg::HAS_POLYNOMIAL != 0) begin : variable
-    logic [blysk_pkg::V_WIDTH-1:0] v_d, v_q;
+  if (HAS_POLYNOMIAL != 0) begin : variable
+    logic [V_WIDTH-1:0] v_d, v_q;
 
-    if (blysk_pkg::CENTRED != 0) begin : centred
-      localparam int U_WIDTH = blysk_pkg::V_WIDTH + blysk_pkg::U_DROP + 2;
-      logic        [S_WIDTH-1:0]    start, s;
-      logic        [SHIFT_BITS-1:0] shift;
-      logic signed [U_WIDTH-1:0]    u;
+    if (CENTRED != 0) begin : centred
+      localparam int U_WIDTH = V_WIDTH + U_DROP + 2;
+      logic        [S_WIDTH-1:0]            start, s;
+      logic        [SHIFT_COMMON_WIDTH-1:0] shift;
+      logic signed [U_WIDTH-1:0]            u;
       assign start = segment[SEGMENTS-1].start;
       assign shift = segment[SEGMENTS-1].shift;
-      assign s = region_d == blysk_pkg::REGION_POLYNOMIAL ? start - S_WIDTH'(x) : '0;
-      assign u = (U_WIDTH'(s) << blysk_pkg::U_UP) << shift;
+      assign s = region_d == REGION_POLYNOMIAL ? start - S_WIDTH'(x) : '0;
+      assign u = (U_WIDTH'(s) << U_UP) << shift;
       blysk_round_shift #(
-        .IN_WIDTH(U_WIDTH), .DROP(blysk_pkg::U_DROP), .OUT_WIDTH(blysk_pkg::V_WIDTH), .MODE(blysk_pkg::U_ROUNDING)
+        .IN_WIDTH(U_WIDTH), .DROP(U_DROP), .OUT_WIDTH(V_WIDTH), .MODE(U_ROUNDING)
       ) round_u (
         .value_i(u), .rounded_o(v_d)
       );
     end else begin : power
-      assign v_d = region_d == blysk_pkg::REGION_POLYNOMIAL ? x : blysk_pkg::X_GREATEST;
+      assign v_d = region_d == REGION_POLYNOMIAL ? x : X_GREATEST;
     end
 
     always_ff @(posedge clk_i) begin
@@ -154,9 +188,9 @@ module blysk_front_end (
   end
 
   // ---- The divider's x ----------------------------------------------------------------------------
-  if (blysk_pkg::HAS_TAIL != 0) begin : tail
-    logic [blysk_pkg::X_WIDTH-1:0] tail_x_d, tail_x_q;
-    assign tail_x_d = region_d == blysk_pkg::REGION_TAIL ? x : '0;
+  if (HAS_TAIL != 0) begin : tail
+    logic [X_WIDTH-1:0] tail_x_d, tail_x_q;
+    assign tail_x_d = region_d == REGION_TAIL ? x : '0;
     always_ff @(posedge clk_i) begin
       if (load_i) tail_x_q <= tail_x_d;
     end
@@ -166,21 +200,21 @@ module blysk_front_end (
   end
 
   // ---- Status -------------------------------------------------------------------------------------
-  logic [blysk_pkg::STATUS_WIDTH-1:0] status_d, status_q;
+  logic [STATUS_WIDTH-1:0] status_d, status_q;
 
-  if (blysk_pkg::STATUS_WIDTH > blysk_pkg::STATUS_CLAMPED + 1) begin : domain
+  if (STATUS_WIDTH > STATUS_CLAMPED + 1) begin : domain
     // The flag behind the last of the others: the cut is the least x that is presented.
     always_comb begin
       status_d                                = status_i;
-      status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
-      status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
-      status_d[blysk_pkg::STATUS_WIDTH-1]     = !no_word && !facing_away && !above_cut;
+      status_d[STATUS_ABOVE_ONE]   = above_one;
+      status_d[STATUS_FACING_AWAY] = facing_away;
+      status_d[STATUS_WIDTH-1]     = !no_word && !facing_away && !above_cut;
     end
   end else begin : every_x
     always_comb begin
       status_d                                = status_i;
-      status_d[blysk_pkg::STATUS_ABOVE_ONE]   = above_one;
-      status_d[blysk_pkg::STATUS_FACING_AWAY] = facing_away;
+      status_d[STATUS_ABOVE_ONE]   = above_one;
+      status_d[STATUS_FACING_AWAY] = facing_away;
     end
   end
 

@@ -18,18 +18,31 @@ module blysk_rom #(
   output logic [blysk_pkg::FIELDS_WIDTH-1:0]  fields_o
 );
 
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int ADDRESS_WIDTH   = blysk_pkg::ADDRESS_WIDTH;
+  localparam int ROM_DEPTH       = blysk_pkg::ROM_DEPTH;
+  localparam int ROM_INDEX_WIDTH = blysk_pkg::ROM_INDEX_WIDTH;
+  localparam int ROM_WIDTH       = blysk_pkg::ROM_WIDTH;
+  localparam int FIELDS          = blysk_pkg::FIELDS;
+  localparam int FIELDS_WIDTH    = blysk_pkg::FIELDS_WIDTH;
+  localparam logic [32*FIELDS-1:0]    FIELD_WIDTH    = blysk_pkg::FIELD_WIDTH;
+  localparam logic [32*FIELDS-1:0]    FIELD_STORED   = blysk_pkg::FIELD_STORED;
+  localparam logic [32*FIELDS-1:0]    FIELD_LSB      = blysk_pkg::FIELD_LSB;
+  localparam logic [32*FIELDS-1:0]    FIELD_PLACE    = blysk_pkg::FIELD_PLACE;
+  localparam logic [FIELDS_WIDTH-1:0] FIELD_CONSTANT = blysk_pkg::FIELD_CONSTANT;
+
   // ---- The memory -------------------------------------------------------------------------------
-  logic [blysk_pkg::ROM_WIDTH-1:0] words[0:blysk_pkg::ROM_DEPTH-1];
+  logic [ROM_WIDTH-1:0] words[0:ROM_DEPTH-1];
   initial $readmemh(ROM_FILE, words);
 
   logic                       has_word;
-  logic [blysk_pkg::ROM_INDEX_WIDTH-1:0] index;
-  logic [blysk_pkg::ROM_WIDTH-1:0]       word_q;
+  logic [ROM_INDEX_WIDTH-1:0] index;
+  logic [ROM_WIDTH-1:0]       word_q;
   logic                       no_word_q;
 
   // The address port has at least one value more than there are words.
-  assign has_word = address_i < blysk_pkg::ADDRESS_WIDTH'(blysk_pkg::ROM_DEPTH);
-  assign index    = has_word ? address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0;
+  assign has_word = address_i < ADDRESS_WIDTH'(ROM_DEPTH);
+  assign index    = has_word ? address_i[ROM_INDEX_WIDTH-1:0] : '0;
 
   always_ff @(posedge clk_i) begin
     if (load_i) begin
@@ -42,15 +55,15 @@ module blysk_rom #(
   // ---- The fields of the word, or their constants -------------------------------------------------
   genvar i;
   generate
-    for (i = 0; i < blysk_pkg::FIELDS; i = i + 1) begin : field
-      localparam int WIDTH = blysk_pkg::FIELD_WIDTH[32*i+:32];
-      localparam int PLACE = blysk_pkg::FIELD_PLACE[32*i+:32];
-      localparam int LSB   = blysk_pkg::FIELD_LSB[32*i+:32];
+    for (i = 0; i < FIELDS; i = i + 1) begin : field
+      localparam int WIDTH = FIELD_WIDTH[32*i+:32];
+      localparam int PLACE = FIELD_PLACE[32*i+:32];
+      localparam int LSB   = FIELD_LSB[32*i+:32];
       logic [WIDTH-1:0] value;
-      if (blysk_pkg::FIELD_STORED[32*i]) begin : stored
+      if (FIELD_STORED[32*i]) begin : stored
         assign value = word_q[LSB+:WIDTH];
       end else begin : constant
-        assign value = blysk_pkg::FIELD_CONSTANT[PLACE+:WIDTH];
+        assign value = FIELD_CONSTANT[PLACE+:WIDTH];
       end
       assign fields_o[PLACE+:WIDTH] = value;
     end
@@ -62,9 +75,9 @@ module blysk_rom #(
   // Where an image gives no word, $readmemh leaves x or 0, and the intensity becomes a valid 0: `if` and `case`
   // take x for false. So a simulation ends at once unless the image is ROM_DEPTH words of ROM_WIDTH bits in
   // hex, between spaces, ends of lines and // comments.
-  localparam int WORD_DIGITS = (blysk_pkg::ROM_WIDTH + 3) / 4;
+  localparam int WORD_DIGITS = (ROM_WIDTH + 3) / 4;
   // The first digit of a word that has all its digits is less.
-  localparam int FIRST_BELOW = 1 << (blysk_pkg::ROM_WIDTH - 4 * (WORD_DIGITS - 1));
+  localparam int FIRST_BELOW = 1 << (ROM_WIDTH - 4 * (WORD_DIGITS - 1));
 
   initial begin : image
     // A letter is its number in ASCII.
@@ -106,9 +119,9 @@ module blysk_rom #(
     if (file == 0)
       $fatal(1, "%0s: the ROM image is not there", ROM_FILE);
     else if (wrong != 0)
-      $fatal(1, "%0s, line %0d: no words of %0d bits in hex", ROM_FILE, wrong, blysk_pkg::ROM_WIDTH);
-    else if (found != blysk_pkg::ROM_DEPTH)
-      $fatal(1, "%0s: the ROM image has %0d words and must have %0d", ROM_FILE, found, blysk_pkg::ROM_DEPTH);
+      $fatal(1, "%0s, line %0d: no words of %0d bits in hex", ROM_FILE, wrong, ROM_WIDTH);
+    else if (found != ROM_DEPTH)
+      $fatal(1, "%0s: the ROM image has %0d words and must have %0d", ROM_FILE, found, ROM_DEPTH);
     else
       $fclose(file);
   end

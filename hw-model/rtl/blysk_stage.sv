@@ -29,7 +29,7 @@ module blysk_stage #(
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 17,
   parameter int SUM_WIDTH           = 39,
-  parameter int ROUNDING            = 1
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP
 ) (
   input  logic                          clk_i,
   input  logic                          load_i,

@@ -21,66 +21,80 @@ module blysk_tail (
   output logic [blysk_pkg::DIGITS_WIDTH-1:0]   digits_o
 );
 
-  localparam int STEPS        = blysk_pkg::DIGIT_STAGES;
-  localparam int DIVISOR_BITS = blysk_pkg::DIVISOR_WIDTH;
-  localparam int DIGIT_BITS   = blysk_pkg::DIGITS_WIDTH;
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int X_WIDTH                 = blysk_pkg::X_WIDTH;
+  localparam int TAIL_A_WIDTH            = blysk_pkg::TAIL_A_WIDTH;
+  localparam int TAIL_A_SIGNED           = blysk_pkg::TAIL_A_SIGNED;
+  localparam int TAIL_B_WIDTH            = blysk_pkg::TAIL_B_WIDTH;
+  localparam int TAIL_B_SIGNED           = blysk_pkg::TAIL_B_SIGNED;
+  localparam int DIVISOR_WIDTH           = blysk_pkg::DIVISOR_WIDTH;
+  localparam int DIGITS_WIDTH            = blysk_pkg::DIGITS_WIDTH;
+  localparam int DIVISOR_PRODUCT_UP      = blysk_pkg::DIVISOR_PRODUCT_UP;
+  localparam int DIVISOR_ADDEND_UP       = blysk_pkg::DIVISOR_ADDEND_UP;
+  localparam int DIVISOR_RESULT_UP       = blysk_pkg::DIVISOR_RESULT_UP;
+  localparam int DIVISOR_DROP            = blysk_pkg::DIVISOR_DROP;
+  localparam int DIVISOR_SUM_WIDTH       = blysk_pkg::DIVISOR_SUM_WIDTH;
+  localparam int DIVISOR_ROUNDING        = blysk_pkg::DIVISOR_ROUNDING;
+  localparam int DIVIDEND_UP             = blysk_pkg::DIVIDEND_UP;
+  localparam int DIGIT_STAGES            = blysk_pkg::DIGIT_STAGES;
+  localparam int QUOTIENT_BITS_PER_STAGE = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
 
   // What enters each digit stage, side by side; at the end the finished division.
-  logic [(STEPS+1)*DIVISOR_BITS-1:0] divisor;
-  logic [(STEPS+1)*DIVISOR_BITS-1:0] remainder;
-  logic [(STEPS+1)*DIGIT_BITS-1:0]   digits;
+  logic [(DIGIT_STAGES+1)*DIVISOR_WIDTH-1:0] divisor;
+  logic [(DIGIT_STAGES+1)*DIVISOR_WIDTH-1:0] remainder;
+  logic [(DIGIT_STAGES+1)*DIGITS_WIDTH-1:0]  digits;
 
   // ---- The divisor, and the dividend cut in two ---------------------------------------------------
   blysk_stage #(
-    .MULTIPLICAND_WIDTH(blysk_pkg::TAIL_B_WIDTH), .MULTIPLICAND_SIGNED(blysk_pkg::TAIL_B_SIGNED),
-    .VARIABLE_WIDTH(blysk_pkg::X_WIDTH),
-    .ADDEND_WIDTH(blysk_pkg::TAIL_A_WIDTH), .ADDEND_SIGNED(blysk_pkg::TAIL_A_SIGNED),
-    .T_WIDTH(blysk_pkg::DIVISOR_WIDTH), .SUBTRACT(1),
-    .PRODUCT_UP(blysk_pkg::DIVISOR_PRODUCT_UP), .ADDEND_UP(blysk_pkg::DIVISOR_ADDEND_UP),
-    .RESULT_UP(blysk_pkg::DIVISOR_RESULT_UP), .DROP(blysk_pkg::DIVISOR_DROP),
-    .SUM_WIDTH(blysk_pkg::DIVISOR_SUM_WIDTH), .ROUNDING(blysk_pkg::DIVISOR_ROUNDING)
+    .MULTIPLICAND_WIDTH(TAIL_B_WIDTH), .MULTIPLICAND_SIGNED(TAIL_B_SIGNED),
+    .VARIABLE_WIDTH(X_WIDTH),
+    .ADDEND_WIDTH(TAIL_A_WIDTH), .ADDEND_SIGNED(TAIL_A_SIGNED),
+    .T_WIDTH(DIVISOR_WIDTH), .SUBTRACT(1),
+    .PRODUCT_UP(DIVISOR_PRODUCT_UP), .ADDEND_UP(DIVISOR_ADDEND_UP),
+    .RESULT_UP(DIVISOR_RESULT_UP), .DROP(DIVISOR_DROP),
+    .SUM_WIDTH(DIVISOR_SUM_WIDTH), .ROUNDING(DIVISOR_ROUNDING)
   ) divisor_stage (
     .clk_i, .load_i(load_i[0]),
-    .multiplicand_i(b_i), .variable_i(x_i), .addend_i(a_i), .t_o(divisor[DIVISOR_BITS-1:0])
+    .multiplicand_i(b_i), .variable_i(x_i), .addend_i(a_i), .t_o(divisor[DIVISOR_WIDTH-1:0])
   );
 
-  logic [DIVISOR_BITS+DIGIT_BITS-1:0] dividend;
-  logic [DIVISOR_BITS-1:0]            remainder_q;
-  logic [DIGIT_BITS-1:0]              digits_q;
+  logic [DIVISOR_WIDTH+DIGITS_WIDTH-1:0] dividend;
+  logic [DIVISOR_WIDTH-1:0]              remainder_q;
+  logic [DIGITS_WIDTH-1:0]               digits_q;
 
-  assign dividend = (DIVISOR_BITS + DIGIT_BITS)'(x_i) << blysk_pkg::DIVIDEND_UP;
+  assign dividend = (DIVISOR_WIDTH + DIGITS_WIDTH)'(x_i) << DIVIDEND_UP;
   always_ff @(posedge clk_i) begin
     if (load_i[0]) {remainder_q, digits_q} <= dividend;
   end
-  assign remainder[DIVISOR_BITS-1:0] = remainder_q;
-  assign digits[DIGIT_BITS-1:0]      = digits_q;
+  assign remainder[DIVISOR_WIDTH-1:0] = remainder_q;
+  assign digits[DIGITS_WIDTH-1:0]     = digits_q;
 
   // ---- The quotient bits --------------------------------------------------------------------------
   genvar step;
   generate
-    for (step = 0; step < STEPS; step = step + 1) begin : digit_stage
-      localparam int MOST  = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
-      localparam int LEFT  = DIGIT_BITS - step * MOST;
+    for (step = 0; step < DIGIT_STAGES; step = step + 1) begin : digit_stage
+      localparam int MOST  = QUOTIENT_BITS_PER_STAGE;
+      localparam int LEFT  = DIGITS_WIDTH - step * MOST;
       localparam int COUNT = LEFT < MOST ? LEFT : MOST;
       blysk_tail_digits #(
-        .COUNT(COUNT), .LAST(step == STEPS - 1 ? 1 : 0)
+        .COUNT(COUNT), .LAST(step == DIGIT_STAGES - 1 ? 1 : 0)
       ) quotient_bits (
         .clk_i, .load_i(load_i[step+1]),
-        .divisor_i(divisor[step*DIVISOR_BITS+:DIVISOR_BITS]),
-        .remainder_i(remainder[step*DIVISOR_BITS+:DIVISOR_BITS]),
-        .digits_i(digits[step*DIGIT_BITS+:DIGIT_BITS]),
-        .divisor_o(divisor[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-        .remainder_o(remainder[(step+1)*DIVISOR_BITS+:DIVISOR_BITS]),
-        .digits_o(digits[(step+1)*DIGIT_BITS+:DIGIT_BITS])
+        .divisor_i(divisor[step*DIVISOR_WIDTH+:DIVISOR_WIDTH]),
+        .remainder_i(remainder[step*DIVISOR_WIDTH+:DIVISOR_WIDTH]),
+        .digits_i(digits[step*DIGITS_WIDTH+:DIGITS_WIDTH]),
+        .divisor_o(divisor[(step+1)*DIVISOR_WIDTH+:DIVISOR_WIDTH]),
+        .remainder_o(remainder[(step+1)*DIVISOR_WIDTH+:DIVISOR_WIDTH]),
+        .digits_o(digits[(step+1)*DIGITS_WIDTH+:DIGITS_WIDTH])
       );
     end
   endgenerate
 
-  assign remainder_o = remainder[STEPS*DIVISOR_BITS+:DIVISOR_BITS];
-  assign digits_o    = digits[STEPS*DIGIT_BITS+:DIGIT_BITS];
+  assign remainder_o = remainder[DIGIT_STAGES*DIVISOR_WIDTH+:DIVISOR_WIDTH];
+  assign digits_o    = digits[DIGIT_STAGES*DIGITS_WIDTH+:DIGITS_WIDTH];
 
   logic unused;
-  assign unused = &{1'b0, divisor[STEPS*DIVISOR_BITS+:DIVISOR_BITS]};
+  assign unused = &{1'b0, divisor[DIGIT_STAGES*DIVISOR_WIDTH+:DIVISOR_WIDTH]};
 
 endmodule
 

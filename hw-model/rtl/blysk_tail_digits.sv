@@ -23,12 +23,16 @@ module blysk_tail_digits #(
   output logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_o
 );
 
-  logic [blysk_pkg::DIVISOR_WIDTH-1:0] remainder_d, remainder_q;
-  logic [blysk_pkg::DIGITS_WIDTH-1:0]  digits_d, digits_q;
+  // ---- Of the configuration -----------------------------------------------------------------------
+  localparam int DIVISOR_WIDTH = blysk_pkg::DIVISOR_WIDTH;
+  localparam int DIGITS_WIDTH  = blysk_pkg::DIGITS_WIDTH;
+
+  logic [DIVISOR_WIDTH-1:0] remainder_d, remainder_q;
+  logic [DIGITS_WIDTH-1:0]  digits_d, digits_q;
 
   // The bits are taken by shifts and casts: simulators differ in how they follow selects of a variable
   // that is written in the same block.
-  logic [blysk_pkg::DIVISOR_WIDTH:0] doubled;
+  logic [DIVISOR_WIDTH:0] doubled;
   logic                   next_bit, goes;
 
   always_comb begin
@@ -38,11 +42,11 @@ module blysk_tail_digits #(
     next_bit    = 1'b0;
     goes        = 1'b0;
     for (int place = 0; place < COUNT; place++) begin
-      next_bit    = 1'(digits_d >> (blysk_pkg::DIGITS_WIDTH - 1));
+      next_bit    = 1'(digits_d >> (DIGITS_WIDTH - 1));
       doubled     = {remainder_d, next_bit};
       goes        = doubled >= {1'b0, divisor_i};
-      remainder_d = blysk_pkg::DIVISOR_WIDTH'(goes ? doubled - {1'b0, divisor_i} : doubled);
-      digits_d    = (digits_d << 1) | blysk_pkg::DIGITS_WIDTH'(goes);
+      remainder_d = DIVISOR_WIDTH'(goes ? doubled - {1'b0, divisor_i} : doubled);
+      digits_d    = (digits_d << 1) | DIGITS_WIDTH'(goes);
     end
   end
 
@@ -58,7 +62,7 @@ module blysk_tail_digits #(
   if (LAST != 0) begin : last
     assign divisor_o = '0;
   end else begin : carried
-    logic [blysk_pkg::DIVISOR_WIDTH-1:0] divisor_q;
+    logic [DIVISOR_WIDTH-1:0] divisor_q;
     always_ff @(posedge clk_i) begin
       if (load_i) divisor_q <= divisor_i;
     end

@@ -13,7 +13,7 @@ module multiply_add #(
   parameter int ADDEND_UP           = 0,
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 0,
-  parameter int ROUNDING            = 1,
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP,
   parameter int WIDE                = 1
 ) (
   input  logic        [MULTIPLICAND_WIDTH-1:0] multiplicand_i,
@@ -42,9 +42,12 @@ module multiply_add #(
   always_comb begin
     rounded_o = below;
     case (ROUNDING)
-      1:       if (rest >= (ONE <<< DROP)) rounded_o = below + ONE;
-      2:       if (rest > (ONE <<< DROP) || (rest == (ONE <<< DROP) && below[0])) rounded_o = below + ONE;
-      3:       if (rest != 0 && below < 0) rounded_o = below + ONE;
+      blysk_pkg::ROUND_NEAREST_UP:
+        if (rest >= (ONE <<< DROP)) rounded_o = below + ONE;
+      blysk_pkg::ROUND_NEAREST_EVEN:
+        if (rest > (ONE <<< DROP) || (rest == (ONE <<< DROP) && below[0])) rounded_o = below + ONE;
+      blysk_pkg::ROUND_TOWARD_ZERO:
+        if (rest != 0 && below < 0) rounded_o = below + ONE;
       default: rounded_o = below;
     endcase
   end

@@ -21,7 +21,7 @@ module stage_proof #(
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 0,
   parameter int SUM_WIDTH           = 1,
-  parameter int ROUNDING            = 1
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP
 ) (
   input logic                          clk_i,
   input logic                          load_i,

@@ -16,7 +16,7 @@ module line #(
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 0,
   parameter int SUM_WIDTH           = 1,
-  parameter int ROUNDING            = 1
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP
 ) (
   input  logic [MULTIPLICAND_WIDTH-1:0] multiplicand_i,
   input  logic [VARIABLE_WIDTH-1:0]     variable_i,
@@ -49,7 +49,7 @@ module blysk_stage #(
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 0,
   parameter int SUM_WIDTH           = 1,
-  parameter int ROUNDING            = 1
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP
 ) (
   input  logic                          clk_i,
   input  logic                          load_i,

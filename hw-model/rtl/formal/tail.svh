@@ -4,40 +4,40 @@
 // divisor, which grows by one bit's worth at a time. At every rank that product and the remainder
 // must make up the part of the dividend that was taken in, with a remainder less than the divisor.
   localparam int X     = blysk_pkg::X_WIDTH;
-  localparam int WHOLE = DIVISOR_BITS + DIGIT_BITS;
+  localparam int WHOLE = DIVISOR_WIDTH + DIGITS_WIDTH;
 
-  logic [STEPS:0] has_result;
-  filled #(.RANKS(STEPS + 1)) ranks_filled (.clk_i, .load_i, .filled_o(has_result));
+  logic [DIGIT_STAGES:0] has_result;
+  filled #(.RANKS(DIGIT_STAGES + 1)) ranks_filled (.clk_i, .load_i, .filled_o(has_result));
 
-  logic [(STEPS+2)*X-1:0] xs;
-  trail #(.WIDTH(X), .RANKS(STEPS + 1)) x_trail (
+  logic [(DIGIT_STAGES+2)*X-1:0] xs;
+  trail #(.WIDTH(X), .RANKS(DIGIT_STAGES + 1)) x_trail (
     .clk_i, .load_i, .value_i(x_i), .trail_o(xs));
 
-  logic [(STEPS+1)*DIVISOR_BITS-1:0] divisors;
-  trail #(.WIDTH(DIVISOR_BITS), .RANKS(STEPS)) divisor_trail (
-    .clk_i, .load_i(load_i[STEPS:1]), .value_i(divisor[DIVISOR_BITS-1:0]), .trail_o(divisors));
+  logic [(DIGIT_STAGES+1)*DIVISOR_WIDTH-1:0] divisors;
+  trail #(.WIDTH(DIVISOR_WIDTH), .RANKS(DIGIT_STAGES)) divisor_trail (
+    .clk_i, .load_i(load_i[DIGIT_STAGES:1]), .value_i(divisor[DIVISOR_WIDTH-1:0]), .trail_o(divisors));
 
   // Quotient so far times divisor, as it leaves each rank; and its quotient.
-  logic [(STEPS+1)*WHOLE-1:0]      products;
-  logic [(STEPS+1)*DIGIT_BITS-1:0] quotients;
+  logic [(DIGIT_STAGES+1)*WHOLE-1:0]      products;
+  logic [(DIGIT_STAGES+1)*DIGITS_WIDTH-1:0] quotients;
   assign products[WHOLE-1:0]       = '0;
-  assign quotients[DIGIT_BITS-1:0] = '0;
+  assign quotients[DIGITS_WIDTH-1:0] = '0;
 
-  for (genvar step = 0; step <= STEPS; step++) begin : at
+  for (genvar step = 0; step <= DIGIT_STAGES; step++) begin : at
     localparam int MOST = blysk_pkg::QUOTIENT_BITS_PER_STAGE;
-    localparam int DONE = step * MOST < DIGIT_BITS ? step * MOST : DIGIT_BITS;
-    localparam int LEFT = DIGIT_BITS - DONE;
+    localparam int DONE = step * MOST < DIGITS_WIDTH ? step * MOST : DIGITS_WIDTH;
+    localparam int LEFT = DIGITS_WIDTH - DONE;
     logic [X-1:0]            along_x;
-    logic [DIVISOR_BITS-1:0] along_divisor, here_remainder;
-    logic [DIGIT_BITS-1:0]   here_digits, quotient;
+    logic [DIVISOR_WIDTH-1:0] along_divisor, here_remainder;
+    logic [DIGITS_WIDTH-1:0]   here_digits, quotient;
     logic [WHOLE-1:0]        dividend_here, product;
     assign along_x        = xs[(step+1)*X+:X];
-    assign along_divisor  = divisors[step*DIVISOR_BITS+:DIVISOR_BITS];
-    assign here_remainder = remainder[step*DIVISOR_BITS+:DIVISOR_BITS];
-    assign here_digits    = digits[step*DIGIT_BITS+:DIGIT_BITS];
+    assign along_divisor  = divisors[step*DIVISOR_WIDTH+:DIVISOR_WIDTH];
+    assign here_remainder = remainder[step*DIVISOR_WIDTH+:DIVISOR_WIDTH];
+    assign here_digits    = digits[step*DIGITS_WIDTH+:DIGITS_WIDTH];
     assign dividend_here  = WHOLE'(along_x) << blysk_pkg::DIVIDEND_UP;
     assign product        = products[step*WHOLE+:WHOLE];
-    assign quotient       = quotients[step*DIGIT_BITS+:DIGIT_BITS];
+    assign quotient       = quotients[step*DIGITS_WIDTH+:DIGITS_WIDTH];
 
     // The quotient fits its bits: the range analysis of the ROM says so, here it is assumed.
     if (step == 0) begin : fits
@@ -47,17 +47,17 @@
       localparam int NEW    = DONE - BEFORE;
       // What the rank before had, as it was when this one loaded.
       logic [2*WHOLE-1:0]      product_before;
-      logic [2*DIGIT_BITS-1:0] quotient_before;
+      logic [2*DIGITS_WIDTH-1:0] quotient_before;
       trail #(.WIDTH(WHOLE), .RANKS(1), .STORED(BEFORE)) product_trail (
         .clk_i, .load_i(load_i[step]),
         .value_i(products[(step-1)*WHOLE+:WHOLE]), .trail_o(product_before));
-      trail #(.WIDTH(DIGIT_BITS), .RANKS(1), .STORED(BEFORE)) quotient_trail (
+      trail #(.WIDTH(DIGITS_WIDTH), .RANKS(1), .STORED(BEFORE)) quotient_trail (
         .clk_i, .load_i(load_i[step]),
-        .value_i(quotients[(step-1)*DIGIT_BITS+:DIGIT_BITS]), .trail_o(quotient_before));
+        .value_i(quotients[(step-1)*DIGITS_WIDTH+:DIGITS_WIDTH]), .trail_o(quotient_before));
       assign products[step*WHOLE+:WHOLE] =
           (product_before[WHOLE+:WHOLE] << NEW) + WHOLE'(here_digits[NEW-1:0]) * WHOLE'(along_divisor);
-      assign quotients[step*DIGIT_BITS+:DIGIT_BITS] =
-          (quotient_before[DIGIT_BITS+:DIGIT_BITS] << NEW) | DIGIT_BITS'(here_digits[NEW-1:0]);
+      assign quotients[step*DIGITS_WIDTH+:DIGITS_WIDTH] =
+          (quotient_before[DIGITS_WIDTH+:DIGITS_WIDTH] << NEW) | DIGITS_WIDTH'(here_digits[NEW-1:0]);
     end
 
     always_comb begin
@@ -65,7 +65,7 @@
         assert (product + WHOLE'(here_remainder) == dividend_here >> LEFT);
         assert (here_remainder < along_divisor);
         assert (quotient >> DONE == '0);
-        assert (here_digits == (DIGIT_BITS'(dividend_here << DONE) | quotient));
+        assert (here_digits == (DIGITS_WIDTH'(dividend_here << DONE) | quotient));
       end
     end
   end

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Failure, failed};
+use super::{Failure, failed, source_text};
 
 /// One line of the RTL, written wrongly on purpose.
 #[derive(Debug, Clone, Copy)]
@@ -32,21 +32,21 @@ pub const FAULTS: &[Fault] = &[
     fault!("rounding dropped in every line", "compact", "blysk_round_shift.sv",
         "assign added = HALF;" => "assign added = '0;", "front_end.v"),
     fault!("stage 1 adds", "compact", "blysk.sv",
-        ".SUBTRACT(blysk_pkg::CENTRED)" => ".SUBTRACT(j == 1 ? 0 : blysk_pkg::CENTRED)", "stage1.t1"),
+        ".SUBTRACT(CENTRED)" => ".SUBTRACT(j == 1 ? 0 : CENTRED)", "stage1.t1"),
     fault!("stage 2 shifts the addend one place less", "compact", "blysk.sv",
-        ".ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32])"
-            => ".ADDEND_UP(blysk_pkg::T_ADDEND_UP[32*j+:32] - (j == 2 ? 1 : 0))", "stage2.t2"),
+        ".ADDEND_UP(T_ADDEND_UP[32*j+:32])"
+            => ".ADDEND_UP(T_ADDEND_UP[32*j+:32] - (j == 2 ? 1 : 0))", "stage2.t2"),
     fault!("stage 3 drops one bit more", "compact", "blysk.sv",
-        ".DROP(blysk_pkg::T_DROP[32*j+:32])" => ".DROP(blysk_pkg::T_DROP[32*j+:32] + (j == 3 ? 1 : 0))", "stage3.t3"),
+        ".DROP(T_DROP[32*j+:32])" => ".DROP(T_DROP[32*j+:32] + (j == 3 ? 1 : 0))", "stage3.t3"),
     fault!("cut off by one", "compact", "blysk_front_end.sv",
         "'(x) >= " => "'(x) > ", "front_end."),
     fault!("no region still answers", "compact", "blysk_clamp.sv",
         "intensity_d = '0;" => "intensity_d = polynomial;", "clamp.intensity"),
     fault!("x above 1 not clamped", "compact", "blysk_front_end.sv",
-        "above_one ? blysk_pkg::X_GREATEST :" => "1'b0 ? blysk_pkg::X_GREATEST :", "front_end.v"),
+        "above_one ? X_GREATEST :" => "1'b0 ? X_GREATEST :", "front_end.v"),
     fault!("ROM reads a row too far", "compact", "blysk_rom.sv",
-        "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] : '0"
-            => "address_i[blysk_pkg::ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
+        "address_i[ROM_INDEX_WIDTH-1:0] : '0"
+            => "address_i[ROM_INDEX_WIDTH-1:0] + 1'b1 : '0", "fetch."),
     fault!("v does not wait for stage 3", "compact", "blysk.sv",
         ".value_i(stage[j-1].v_here)" => ".value_i(j == 3 ? v : stage[j-1].v_here)", "stage2.v"),
     fault!("the pipeline does not stall", "compact", "blysk_handshake.sv",
@@ -72,29 +72,29 @@ pub const FAULTS: &[Fault] = &[
             => "assign valid_d = {3'b0, valid_q == 6'b1, 2'b0} | (advance & offered)",
         "valid flag of rank 2 is 1, expected 0"),
     fault!("c1 loads while it stalls", "compact", "blysk.sv",
-        ".load_i(load[RANKS:1]), .value_i(chosen)"
-            => ".load_i(load[RANKS:1] | {RANKS{i == 1}}), .value_i(chosen)", ".c1 is"),
+        ".load_i(load[HELD:1]), .value_i(chosen)"
+            => ".load_i(load[HELD:1] | {HELD{i == 1}}), .value_i(chosen)", ".c1 is"),
     fault!("a stage loads while it stalls", "compact", "blysk_stage.sv",
         "if (load_i) t_q <= t_d;" => "t_q <= t_d;", "stage"),
     fault!("the outer segment takes the inner one's c2", "precise", "blysk.sv",
         "beyond[k] ? fields[PLACE+:WIDTH]" => "beyond[k] && i != 2 ? fields[PLACE+:WIDTH]", ".c2 is"),
     fault!("the cut not in the unit of x", "small_ends", "blysk_front_end.sv",
-        "'(of_row) << blysk_pkg::CUT_UP;" => "'(of_row);", "front_end."),
+        "'(of_row) << CUT_UP;" => "'(of_row);", "front_end."),
     fault!("the second segment counts from the hand-over in its own unit", "small_ends", "blysk_front_end.sv",
-        "S_WIDTH'(of_row) << blysk_pkg::HAND_OVER_UP" => "S_WIDTH'(of_row)", "front_end.v is"),
+        "S_WIDTH'(of_row) << HAND_OVER_UP" => "S_WIDTH'(of_row)", "front_end.v is"),
     fault!("the divisor adds", "paper", "blysk_tail.sv",
         ".SUBTRACT(1)" => ".SUBTRACT(0)", "tail0.divisor is"),
     fault!("the dividend a place too low", "paper", "blysk_tail.sv",
-        "<< blysk_pkg::DIVIDEND_UP;" => "<< (blysk_pkg::DIVIDEND_UP - 1);", "tail0.remainder is"),
+        "<< DIVIDEND_UP;" => "<< (DIVIDEND_UP - 1);", "tail0.remainder is"),
     fault!("a quotient bit wrong at equality", "schlick", "blysk_tail_digits.sv",
         "doubled >= {1'b0, divisor_i}" => "doubled > {1'b0, divisor_i}", "remainder is"),
     fault!("the divisor is not carried", "paper", "blysk_tail_digits.sv",
         "if (load_i) divisor_q <= divisor_i;" => "if (load_i) divisor_q <= '0;", "tail1.divisor is"),
     fault!("quotient not rounded", "paper", "blysk_clamp.sv",
-        ".MODE(blysk_pkg::QUOTIENT_ROUNDING)" => ".MODE(0)", "clamp.intensity"),
+        ".MODE(QUOTIENT_ROUNDING)" => ".MODE(blysk_pkg::ROUND_FLOOR)", "clamp.intensity"),
     fault!("polynomial and tail swapped", "paper", "blysk_clamp.sv",
-        "blysk_pkg::REGION_POLYNOMIAL: intensity_d = polynomial;"
-            => "blysk_pkg::REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
+        "REGION_POLYNOMIAL: intensity_d = polynomial;"
+            => "REGION_POLYNOMIAL: intensity_d = quotient;", "clamp.intensity"),
 ];
 
 impl Fault {
@@ -103,10 +103,8 @@ impl Fault {
     /// # Errors
     /// When the right text does not stand there exactly once.
     pub fn apply(&self, text: &str) -> Result<String, Failure> {
-        match text.matches(self.right).count() {
-            1 => Ok(text.replace(self.right, self.wrong)),
-            places => failed(format!("the fault \"{}\" fits {places} places of {}, not one", self.name, self.file)),
-        }
+        source_text::replace_once(text, self.right, self.wrong)
+            .or_else(|places| failed(format!("{}: {:?} is {places} times in {}", self.name, self.right, self.file)))
     }
 
     /// Plants the fault into a directory of RTL.

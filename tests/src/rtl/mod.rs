@@ -9,6 +9,7 @@ pub mod readers;
 pub mod replay;
 pub mod rom_image;
 pub mod simulators;
+pub mod source_text;
 pub mod specialised;
 pub mod two_in_one;
 pub mod waves;

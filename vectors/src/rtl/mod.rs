@@ -22,7 +22,7 @@ use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
 pub use modules::Modules;
-pub use package::{package, rounding_number};
+pub use package::{package, rounding_name, rounding_number};
 pub use project::core_name;
 pub use save_file::{Names, save_file};
 pub use testbench::testbench;

@@ -19,15 +19,16 @@ use hw_model::registers::Register;
 use hw_model::rom::{Field, Place};
 use hw_model::rounding::Rounding;
 
-/// The number of a rounding mode in the RTL, as at the top of `blysk_round_shift.sv`.
+/// The number of a rounding mode in the RTL: its place in [`Rounding::ALL`].
 #[must_use]
 pub const fn rounding_number(mode: Rounding) -> u8 {
-    match mode {
-        Rounding::Floor => 0,
-        Rounding::NearestUp => 1,
-        Rounding::NearestEven => 2,
-        Rounding::TowardZero => 3,
-    }
+    mode as u8
+}
+
+/// The name of a rounding mode in the RTL, which `blysk_round_shift.sv` chooses by.
+#[must_use]
+pub fn rounding_name(mode: Rounding) -> String {
+    format!("ROUND_{}", mode.name().to_uppercase())
 }
 
 /// The text of `blysk_pkg.sv`.
@@ -38,6 +39,7 @@ pub fn package(design: &Design, command: &str) -> String {
         configuration: &design.config().name,
         command,
         sections: vec![
+            rounding_modes(),
             parts(design),
             ports(datapath),
             rom(datapath),
@@ -128,7 +130,7 @@ impl Section {
     fn rounding(self, name: &str, mode: Rounding) -> Self {
         let mut section = self.integer(format!("{name}_ROUNDING"), rounding_number(mode));
         if let Some(constant) = section.constants.last_mut() {
-            constant.comment = format!("  // {mode}");
+            constant.value = rounding_name(mode);
         }
         section
     }
@@ -160,6 +162,12 @@ fn concatenation(elements: &[String]) -> String {
         [line] => format!("{{{line}}}"),
         lines => format!("{{\n    {}}}", lines.join(",\n    ")),
     }
+}
+
+fn rounding_modes() -> Section {
+    Rounding::ALL.into_iter().fold(Section::new("Rounding modes"), |section, mode| {
+        section.integer(rounding_name(mode), rounding_number(mode))
+    })
 }
 
 fn parts(design: &Design) -> Section {
@@ -350,12 +358,15 @@ fn polynomial(design: &Design) -> Section {
         let all = std::iter::once(first.to_string()).chain(stages);
         section = section.vector(&format!("T_{suffix}"), all);
     }
-    for suffix in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH", "ROUNDING"] {
+    for suffix in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"] {
         let stages = (1..=degree).map(|stage| format!("T{stage}_{suffix}"));
         let all = std::iter::once("0".to_owned()).chain(stages);
         section = section.vector(&format!("T_{suffix}"), all);
     }
+    let mode = |stage: usize| datapath.stages().get(stage - 1).map_or(0, |line| rounding_number(line.rounding()));
+    let modes = std::iter::once(0).chain((1..=degree).map(mode)).map(|mode| mode.to_string());
     section
+        .vector("T_ROUNDING", modes)
         .integer("POLYNOMIAL_WIDTH", formats.as_ref().map_or(1, |f| f.last().width()))
         .integer("POLYNOMIAL_SIGNED", i64::from(formats.is_some_and(|f| f.last().is_signed())))
 }

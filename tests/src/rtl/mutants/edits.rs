@@ -6,9 +6,9 @@ use hw_model::format::QFormat;
 use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 use vectors::faults::{Defect, Fault, HANDSHAKE, Logic, pipeline_faults};
-use vectors::rtl::rounding_number;
+use vectors::rtl::{rounding_name, rounding_number};
 
-use crate::rtl::{Failure, failed};
+use crate::rtl::{Failure, failed, source_text};
 
 /// A change of one place of one file.
 #[derive(Debug, Clone)]
@@ -31,10 +31,8 @@ impl Edit {
     /// # Errors
     /// When the line is not there, or more than once.
     pub fn apply(&self, text: &str) -> Result<String, Failure> {
-        if text.matches(&self.right).count() != 1 {
-            return failed(format!("{}: {:?} is not once in {}", self.name, self.right, self.file));
-        }
-        Ok(text.replace(&self.right, &self.wrong))
+        source_text::replace_once(text, &self.right, &self.wrong)
+            .or_else(|places| failed(format!("{}: {:?} is {places} times in {}", self.name, self.right, self.file)))
     }
 }
 
@@ -67,9 +65,8 @@ fn rounding(datapath: &Datapath, line: Register, mode: Rounding) -> Change {
         Register::Divisor => ("DIVISOR", datapath.divider().map(|d| d.divisor.rounding())),
         _ => ("QUOTIENT", datapath.divider().map(|d| d.rounding)),
     };
-    let own = rounding_number(own.unwrap_or_default());
-    let right = format!("{name}_ROUNDING = {own};");
-    (vectors::rtl::PACKAGE, right, format!("{name}_ROUNDING = {};", rounding_number(mode)))
+    let text = |mode| format!("{name}_ROUNDING = {};", rounding_name(mode));
+    (vectors::rtl::PACKAGE, text(own.unwrap_or_default()), text(mode))
 }
 
 /// In the vector of the modes of all stages.
@@ -96,10 +93,10 @@ fn register(datapath: &Datapath, rank: usize, register: Register, defect: Defect
         Register::T(_) => ("blysk.sv", ".t_i(", "t_waited", ")"),
         Register::TailX => ("blysk_front_end.sv", "assign tail_x_o = ", "tail_x_q", ";"),
         Register::Remainder if rank == HEAD_RANKS => {
-            ("blysk_tail.sv", "assign remainder[DIVISOR_BITS-1:0] = ", "remainder_q", ";")
+            ("blysk_tail.sv", "assign remainder[DIVISOR_WIDTH-1:0] = ", "remainder_q", ";")
         }
         Register::Digits if rank == HEAD_RANKS => {
-            ("blysk_tail.sv", "assign digits[DIGIT_BITS-1:0]      = ", "digits_q", ";")
+            ("blysk_tail.sv", "assign digits[DIGITS_WIDTH-1:0] = ", "digits_q", ";")
         }
         Register::Intensity => ("blysk_clamp.sv", "assign intensity_o = ", "intensity_q", ";"),
         _ => return None,
@@ -135,32 +132,32 @@ fn logic(logic: Logic) -> Option<Change> {
     let clamp = |right: &str, wrong: &str| Some(change("blysk_clamp.sv", right, wrong));
     match logic {
         Logic::CutExclusive => front_end("'(x) >= ", "'(x) > "),
-        Logic::ShiftMore(0) => front_end("<< shift;", "<< (|beyond_o ? shift : SHIFT_BITS'(shift + 1'b1));"),
+        Logic::ShiftMore(0) => front_end("<< shift;", "<< (|beyond_o ? shift : SHIFT_COMMON_WIDTH'(shift + 1'b1));"),
         Logic::ShiftMore(segment) => {
             let answers = format!("(beyond_o >> {segment}) == SEGMENTS'(1)");
-            let wrong = format!("<< ({answers} ? SHIFT_BITS'(shift + 1'b1) : shift);");
+            let wrong = format!("<< ({answers} ? SHIFT_COMMON_WIDTH'(shift + 1'b1) : shift);");
             front_end("<< shift;", &wrong)
         }
         Logic::ShiftLess => {
-            front_end("<< shift;", "<< (|beyond_o || shift == '0 ? shift : SHIFT_BITS'(shift - 1'b1));")
+            front_end("<< shift;", "<< (|beyond_o || shift == '0 ? shift : SHIFT_COMMON_WIDTH'(shift - 1'b1));")
         }
         Logic::HandOverExclusive(segment) => {
             let wrong = format!("(k == {segment} ? COMPARE'(x) <= hand_over : COMPARE'(x) < hand_over);");
             front_end("COMPARE'(x) < hand_over;", &wrong)
         }
-        Logic::NoInputClamp => front_end("above_one ? blysk_pkg::X_GREATEST", "1'b0 ? '0"),
+        Logic::NoInputClamp => front_end("above_one ? X_GREATEST", "1'b0 ? '0"),
         Logic::NegativeAsUnsigned => None,
         Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),
         Logic::NoClampBelow => clamp("below ? '0 :", "1'b0 ? '0 :"),
-        Logic::NoClampAbove => clamp("above ? blysk_pkg::OUTPUT_GREATEST :", "1'b0 ? blysk_pkg::OUTPUT_GREATEST :"),
+        Logic::NoClampAbove => clamp("above ? OUTPUT_GREATEST :", "1'b0 ? OUTPUT_GREATEST :"),
         Logic::NoQuotientClamp => clamp("assign quotient = rounded >", "assign quotient = 1'b0 && rounded >"),
         Logic::NoFlag(flag) => {
             let place = flag.bits().trailing_zeros();
-            let mask = format!("status_q & ~(blysk_pkg::STATUS_WIDTH'(1) << {place})");
+            let mask = format!("status_q & ~(STATUS_WIDTH'(1) << {place})");
             clamp("= status_q;", &format!("= {mask};"))
         }
         Logic::DigitMissing => {
-            Some(change("blysk_tail.sv", ".COUNT(COUNT)", ".COUNT(step == STEPS - 1 ? COUNT - 1 : COUNT)"))
+            Some(change("blysk_tail.sv", ".COUNT(COUNT)", ".COUNT(step == DIGIT_STAGES - 1 ? COUNT - 1 : COUNT)"))
         }
     }
 }
