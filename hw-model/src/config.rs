@@ -10,10 +10,10 @@ use thiserror::Error;
 
 use crate::domain::{self, Presented};
 use crate::exponents::Exponents;
-use crate::fit::{Levels, Method};
+use crate::fit::{Hardware, Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
 use crate::names;
-use crate::registers::{CUBIC, MAX_DEGREE, MAX_SEGMENTS, Register};
+use crate::registers::{CUBIC, MAX_SEGMENTS, Register};
 use crate::rounding::Rounding;
 use crate::steps::{self, CoefficientSteps};
 use crate::widths::StatedWidths;
@@ -232,33 +232,22 @@ impl Config {
     }
 
     fn check_method(&self) -> Result<(), ConfigError> {
-        match self.method {
-            Method::Composite => wrong(
-                "method",
-                "composite is hermite with a rational tail: say \"method\": \"hermite\", \
-                 \"tail\": \"rational\"",
-            ),
-            Method::Rational => wrong(
-                "method",
-                "rational answers on the tail only: say hermite, three_point, tangent, minimax, \
-                 quadratic or schlick, with \"tail\": \"rational\"",
-            ),
-            Method::Schlick if self.tail != Tail::Rational => {
+        match self.method.capabilities().hardware {
+            Hardware::None { instead } => wrong("method", instead),
+            Hardware::Divider if self.tail != Tail::Rational => {
                 wrong("tail", "schlick is a ratio: say \"tail\": \"rational\"")
             }
-            Method::Schlick => Ok(()),
-            _ if self.tail == Tail::Rational && self.cut != Cut::Epicentre => {
+            Hardware::Polynomial { .. } if self.tail == Tail::Rational && self.cut != Cut::Epicentre => {
                 wrong("cut", "a rational tail meets the polynomial at q: say \"cut\": \"epicentre\"")
             }
-            _ => Ok(()),
+            Hardware::Divider | Hardware::Polynomial { .. } => Ok(()),
         }
     }
 
     fn check_degree(&self) -> Result<(), ConfigError> {
-        let (allowed, would_be_right) = match self.method {
-            Method::Minimax => (1..=MAX_DEGREE, "use 1 to 4"),
-            Method::Quadratic => (2..=CUBIC, "quadratic is a parabola: say 2, or 3 for a cubic without x³"),
-            _ => (CUBIC..=CUBIC, "only minimax and quadratic have other degrees: leave it out, or say 3"),
+        let (allowed, would_be_right) = match self.method.capabilities().hardware {
+            Hardware::Polynomial { least, greatest, otherwise } => (least..=greatest, otherwise),
+            Hardware::Divider | Hardware::None { .. } => (CUBIC..=CUBIC, "it has no polynomial: leave the degree out"),
         };
         if !allowed.contains(&self.degree) {
             return wrong("degree", would_be_right);
@@ -316,7 +305,7 @@ impl Config {
 
     /// A format stated for a register that the configuration does not have is a mistake.
     fn check_stated(&self) -> Result<(), ConfigError> {
-        let polynomial = self.method != Method::Schlick;
+        let polynomial = self.method.has_polynomial();
         let widths = &self.widths;
         let stated = |registers: &[Register]| registers.iter().any(|&r| widths[r].is_some());
         if stated(&[Register::V]) && (self.form == Form::Power || !polynomial) {

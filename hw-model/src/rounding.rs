@@ -47,6 +47,12 @@ impl Rounding {
         }
     }
 
+    /// The last word of the name, for narrow columns.
+    #[must_use]
+    pub fn short_name(self) -> &'static str {
+        self.name().rsplit('_').next().unwrap_or_default()
+    }
+
     /// True for the two modes whose error never exceeds half an ulp.
     #[must_use]
     pub const fn is_nearest(self) -> bool {
@@ -143,9 +149,22 @@ pub fn round_shift<L: Lane>(value: L, drop: u32, mode: Rounding) -> L {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// numerator/denominator rounded to an integer, by comparison with the integer below.
+    pub(crate) fn rounded_ratio(numerator: i64, denominator: i64, mode: Rounding) -> i64 {
+        let below = numerator.div_euclid(denominator);
+        let twice = 2 * numerator.rem_euclid(denominator);
+        let up = match mode {
+            Rounding::Floor => false,
+            Rounding::NearestUp => twice >= denominator,
+            Rounding::NearestEven => twice > denominator || (twice == denominator && below % 2 != 0),
+            Rounding::TowardZero => below < 0 && twice > 0,
+        };
+        below + i64::from(up)
+    }
 
     #[test]
     fn modes_have_their_names() {
@@ -167,6 +186,7 @@ mod tests {
         for (mode, wanted) in expected {
             let got = quarters.map(|value| round_shift(value, 2, mode));
             assert_eq!(got, wanted, "{mode}");
+            assert_eq!(quarters.map(|value| rounded_ratio(value, 4, mode)), wanted, "{mode}");
         }
     }
 

@@ -13,7 +13,6 @@ use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use crate::config::{Config, ConfigError};
-use crate::fit::Method;
 use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, Register};
 
 /// The farthest a coefficient is moved either way. Beyond it is no correction.
@@ -125,7 +124,7 @@ impl<'de> Visitor<'de> for ByName {
 pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
     let steps = &config.coefficient_steps;
     let wrong = |problem: String| Err(ConfigError::Field { field: "coefficient_steps", problem });
-    if !steps.is_empty() && config.method == Method::Schlick {
+    if !steps.is_empty() && !config.method.has_polynomial() {
         return wrong("schlick has no polynomial; leave them out".to_owned());
     }
     let mut seen = vec![false; config.exponents.len()];

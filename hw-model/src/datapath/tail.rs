@@ -162,6 +162,7 @@ impl Divider {
 mod tests {
     use super::*;
     use crate::datapath::stage::Fractions;
+    use crate::rounding::tests::rounded_ratio;
 
     /// Every x and divisor of a small divider against the integers: A = D, B = 0.
     #[test]
@@ -190,15 +191,8 @@ mod tests {
                         assert!(division.remainder < d);
                         divider.digit_stage(index, division)
                     });
-                    let floor = numerator / denominator;
-                    let twice = 2 * (numerator - floor * denominator);
-                    let up = match rounding {
-                        Rounding::Floor | Rounding::TowardZero => false,
-                        Rounding::NearestUp => twice >= denominator,
-                        Rounding::NearestEven => twice > denominator || (twice == denominator && floor % 2 == 1),
-                    };
                     let got = divider.finish(division, 64);
-                    assert_eq!(got, floor + i64::from(up), "{x}/{d} {rounding}");
+                    assert_eq!(got, rounded_ratio(numerator, denominator, rounding), "{x}/{d} {rounding}");
                     compared += 1;
                 }
             }

@@ -10,7 +10,6 @@ use crate::config::{Config, Form};
 use crate::datapath::formats::PolynomialFormats;
 use crate::datapath::front_end::Variable;
 use crate::datapath::stage::{Fractions, MultiplyAdd, Stages};
-use crate::fit::Method;
 use crate::format::QFormat;
 use crate::quantise::{quantise_moved, real, round_scaled};
 use crate::registers::{MAX_DEGREE, Register, Table};
@@ -25,7 +24,7 @@ pub(super) fn derive(
     rows: &[RealRow],
     parts: &mut Parts,
 ) -> Result<Option<(Variable, Stages)>, DesignError> {
-    if config.method == Method::Schlick {
+    if !config.method.has_polynomial() {
         return Ok(None);
     }
     let pieces = pieces(config, rows);

@@ -14,8 +14,7 @@ use super::table::{Cell, Format, Rows};
 #[derive(ClapArgs)]
 #[command(after_help = "Example: blysk coefficients --method hermite --exponents 2.5,64,1e9 --format csv")]
 pub(super) struct Args {
-    /// The method: hermite, three_point, tangent, minimax, quadratic, rational, composite or schlick.
-    #[arg(long, value_name = "METHOD")]
+    #[arg(long, value_name = "METHOD", help = format!("The method: one of {}.", Method::list()))]
     method: Method,
     /// The exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
     #[arg(long, allow_hyphen_values = true, value_name = "LIST")]

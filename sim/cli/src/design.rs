@@ -161,7 +161,7 @@ fn ranking(considered: &[Considered]) -> Rows {
             CandidateFate::Proved(hardware) => (Some(*hardware), "proved".to_owned()),
             CandidateFate::Narrowed(hardware) => (Some(*hardware), "narrowed".to_owned()),
         };
-        let rounding = one.rounding.map_or("any", short);
+        let rounding = one.rounding.map_or("any", Rounding::short_name);
         let mut cells = vec![Cell::from(one.config.method.to_string())];
         cells.extend(parts(&one.config).map(Cell::from));
         cells.extend([Cell::from(rounding), Cell::Real(one.real.whole)]);
@@ -173,15 +173,6 @@ fn ranking(considered: &[Considered]) -> Rows {
         rows.push(cells);
     }
     rows
-}
-
-const fn short(rounding: Rounding) -> &'static str {
-    match rounding {
-        Rounding::Floor => "floor",
-        Rounding::NearestUp => "up",
-        Rounding::NearestEven => "even",
-        Rounding::TowardZero => "zero",
-    }
 }
 
 fn summary(request: &Request, sized: &Sized) -> String {

@@ -6,7 +6,7 @@ use hw_model::config::Form;
 use hw_model::fit::Method;
 
 use super::table::{Cell, Format, Rows, digits, write_folded};
-use analysis::stability::coefficients::{CoefficientLosses, METHODS, STEPS_PER_DECADE, Threshold};
+use analysis::stability::coefficients::{self, CoefficientLosses, STEPS_PER_DECADE, Threshold};
 use analysis::stability::conditioning::{Conditioning, OUTPUT_BITS, Widths};
 use analysis::stability::edges::{Edge, EdgeReport};
 use analysis::stability::reference::ReferenceReport;
@@ -42,7 +42,7 @@ pub(super) fn coefficients(report: &CoefficientLosses, out: &mut dyn Write) -> a
         };
         report.thresholds.iter().find(same).and_then(|found| found.half)
     };
-    for method in METHODS {
+    for method in coefficients::methods() {
         for row in report.thresholds.iter().filter(|row| row.method == method) {
             if row.toward.is_some() {
                 continue;

@@ -176,24 +176,16 @@ impl Contenders {
     }
 }
 
-const ZERO_BELOW: &str = "1 - s(k1 - s(k2 - s k3)), s = 1 - x, not less than 0; 0 below the cubic's minimum \
-                          under the epicentre";
 const POWERS: &str = "repeated squaring, one multiplication a bit of n and one more for each that is set";
 
 fn methods(method: Method, exponents: &[f64], list: &mut Vec<Contender>) -> Result<(), ContenderError> {
-    let name = method.name();
+    let (name, what) = (method.name(), method.capabilities().evaluation);
     if method == Method::Schlick {
-        let what = "x/(n - n x + x)";
         both(name, what, Kernel::schlick(exponents), Kernel::schlick(exponents), list);
         return Ok(());
     }
     let levels = Levels::default();
     let fits: Vec<Fit> = exponents.iter().map(|&n| fit(method, n, levels)).collect::<Result<_, _>>()?;
-    let what = match method {
-        Method::Composite => "hermite's cubic in s = 1 - x on the epicentre, x/(a - b + b s) below",
-        Method::Rational => "x/(a - b + b s) everywhere, and 1 where that is more",
-        _ => ZERO_BELOW,
-    };
     both(name, what, Kernel::of_fits(&fits), Kernel::of_fits(&fits), list);
     Ok(())
 }

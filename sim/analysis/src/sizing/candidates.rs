@@ -25,9 +25,7 @@ const LEVEL: f64 = 0.995;
 pub(super) fn candidates(request: &Request, least: &[i64]) -> Result<Vec<(Config, RealError)>, DesignError> {
     let mut series: Vec<Vec<Config>> = Vec::new();
     for form in [Form::Centred, Form::Power] {
-        for method in [Method::Minimax, Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic] {
-            // A parabola has one multiply-add less.
-            let degree = if method == Method::Quadratic { 2 } else { CUBIC };
+        for (method, degree) in methods() {
             let own = Config { method, form, degree, ..plain(request) };
             series.extend(of_method(request, &own).into_iter().map(|config| vec![config]));
         }
@@ -37,6 +35,14 @@ pub(super) fn candidates(request: &Request, least: &[i64]) -> Result<Vec<(Config
     series.push(vec![schlick]);
     let judged = series.par_iter().map(|series| enough(series, request.error, least)).collect::<Result<Vec<_>, _>>()?;
     Ok(judged.into_iter().flatten().collect())
+}
+
+/// The methods that are tried, with their degrees: those that are searched for first, as they are the best of theirs.
+fn methods() -> Vec<(Method, usize)> {
+    let degree = |method: Method| method.capabilities().candidate.map(|degree| (method, degree));
+    let mut methods: Vec<_> = Method::ALL.into_iter().filter_map(degree).collect();
+    methods.sort_by_key(|(method, _)| method.capabilities().closed_form);
+    methods
 }
 
 /// Of configurations with more and more segments those that are too far, up to two segments, the first that keeps the

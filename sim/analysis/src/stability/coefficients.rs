@@ -30,9 +30,11 @@ const DISTANCES_PER_DECADE: i32 = 2;
 /// From here on no coefficient vanishes any more.
 const PAST_ZEROS: f64 = 4.0;
 
-/// The methods with coefficients of their own.
-pub const METHODS: [Method; 5] =
-    [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic, Method::Rational];
+/// The methods whose coefficients `expressions.rs` writes out.
+pub fn methods() -> impl Iterator<Item = Method> {
+    let at = At::<f64>::new(2.0, Levels::default());
+    Method::ALL.into_iter().filter(move |&method| forms(method, Way::Naive, &at).is_some())
+}
 
 /// The set of coefficients whose digits are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -129,7 +131,7 @@ pub fn coefficient_losses(levels: Levels) -> Result<CoefficientLosses, FitError>
     let losses: Result<Vec<Vec<Loss>>, FitError> = exponents().par_iter().map(|&n| losses_at(n, levels)).collect();
     let mut rows = losses?.concat();
     // By method, and by exponent within it: the sort keeps the order of what is equal.
-    rows.sort_by_key(|row| METHODS.iter().position(|&method| method == row.method));
+    rows.sort_by_key(|row| row.method as u8);
     Ok(CoefficientLosses {
         q: levels.q(),
         g: levels.g(),
@@ -161,7 +163,7 @@ fn losses_at(n: f64, levels: Levels) -> Result<Vec<Loss>, FitError> {
     let (plain, wide) = (At::<f64>::new(n, levels), At::<Wide>::new(n, levels));
     let printed = levels.q() == 0.5;
     let mut losses = Vec::new();
-    for method in METHODS {
+    for method in methods() {
         let Some(exact) = forms(method, Way::Naive, &wide) else { continue };
         for way in Way::ALL {
             let computed = match way {
@@ -233,7 +235,7 @@ fn digits(error: &Wide, value: &Wide) -> f64 {
 
 fn thresholds(rows: &[Loss]) -> Vec<Threshold> {
     let mut found = Vec::new();
-    for method in METHODS {
+    for method in methods() {
         for way in Way::ALL {
             for form in [Set::Power, Set::Centred] {
                 let of = |row: &&Loss| (row.method, row.way, row.form) == (method, way, form);
@@ -295,7 +297,7 @@ mod tests {
             let root = |level| Wide::root_of(level, &wide(level).ln(), &n_wide);
             let (q, l) = (root(levels.q()), root(levels.g()));
             let slope = n_wide.clone() * wide(levels.q()) / q.clone();
-            for method in METHODS {
+            for method in methods() {
                 let exact = forms(method, Way::Naive, &At::<Wide>::new(n, levels)).unwrap();
                 let place = format!("{method}, n = {n}");
                 if method == Method::Rational {
@@ -343,7 +345,7 @@ mod tests {
     fn the_precision_suffices() {
         const MORE: usize = super::super::wide::PRECISION + 256;
         for n in [1.0_f64.next_up(), 2.0_f64.next_up(), 3.0_f64.next_down(), 1e9, 1e15] {
-            for method in METHODS {
+            for method in methods() {
                 let exact = forms(method, Way::Naive, &At::<Wide>::new(n, Levels::default())).unwrap();
                 let finer = forms(method, Way::Naive, &At::<Wide<MORE>>::new(n, Levels::default())).unwrap();
                 for (exact, finer) in

@@ -25,8 +25,11 @@ use rayon::prelude::*;
 use serde::Serialize;
 use thiserror::Error;
 
-/// The methods that give a cubic.
-pub const METHODS: [Method; 4] = [Method::Hermite, Method::ThreePoint, Method::Tangent, Method::Quadratic];
+/// The methods that give a polynomial by a formula.
+fn methods() -> impl Iterator<Item = Method> {
+    Method::ALL.into_iter().filter(|method| method.has_polynomial() && method.capabilities().closed_form)
+}
+
 /// The bits of the results.
 pub const OUTPUT_BITS: [u32; 4] = [8, 12, 16, 20];
 /// The error budget of a faithful result, in ulp: less than 1.
@@ -123,7 +126,7 @@ pub struct Conditioning {
 pub fn conditioning(levels: Levels) -> Result<Conditioning, ConditioningError> {
     let step = |i: u32| 10_f64.powf(f64::from(i) / f64::from(STEPS_PER_DECADE));
     let mut conditions = Vec::new();
-    for method in METHODS {
+    for method in methods() {
         for n in (0..=9 * STEPS_PER_DECADE).map(step) {
             if let Some(cubic) = fit(method, n, levels)?.cubic() {
                 conditions.push(condition(method, n, cubic, levels)?);
@@ -280,7 +283,7 @@ mod tests {
     #[test]
     fn the_power_form_grows_as_n_squared_and_the_centred_does_not() {
         let table = conditioning(Levels::default()).unwrap();
-        for method in METHODS {
+        for method in methods() {
             let at = |n: f64| {
                 let near = |row: &&Condition| row.method == method && row.n >= n * 0.999;
                 *table.conditions.iter().find(near).unwrap()

@@ -115,7 +115,7 @@ pub(super) fn forms<R: Real>(method: Method, way: Way, at: &At<R>) -> Option<For
         (Method::ThreePoint, _) => Some(three_point(at, way)),
         (Method::Tangent, _) => Some(tangent(at, way)),
         (Method::Rational, _) => Some(rational(at, way)),
-        (Method::Minimax | Method::Composite | Method::Schlick, _) => None,
+        (_, _) => None,
     }
 }
 

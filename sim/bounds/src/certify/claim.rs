@@ -17,12 +17,12 @@ impl Stretch {
     /// The regions that a method is made for.
     #[must_use]
     pub const fn of(method: Method) -> &'static [Self] {
-        match method {
-            Method::Hermite | Method::ThreePoint | Method::Tangent | Method::Minimax | Method::Quadratic => {
-                &[Self::Epicentre]
-            }
-            Method::Rational => &[Self::Tail],
-            Method::Composite | Method::Schlick => &[Self::Epicentre, Self::Tail],
+        let capabilities = method.capabilities();
+        match (capabilities.epicentre, capabilities.tail) {
+            (true, false) => &[Self::Epicentre],
+            (false, true) => &[Self::Tail],
+            (true, true) => &[Self::Epicentre, Self::Tail],
+            (false, false) => &[],
         }
     }
 
@@ -30,7 +30,8 @@ impl Stretch {
     /// `minimax` is found for each n by itself.
     #[must_use]
     pub const fn has_formula_of_n(method: Method) -> bool {
-        !matches!(method, Method::Minimax | Method::Rational)
+        let capabilities = method.capabilities();
+        capabilities.closed_form && capabilities.epicentre
     }
 
     /// As in files and tables.

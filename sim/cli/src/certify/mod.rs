@@ -50,9 +50,7 @@ use vectors::progress::Progress;
 pub(super) struct Args {
     #[command(flatten)]
     subject: Subject,
-    /// hermite, three_point, tangent, minimax, quadratic, rational, composite, schlick, or all
-    /// [default: hermite with --all-real-n, else all].
-    #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"])]
+    #[arg(long, value_name = "METHOD", conflicts_with_all = ["preset", "config", "check"], help = help_of_method())]
     method: Option<Methods>,
     /// Q, the level where the epicentre ends.
     #[arg(long, default_value_t = Levels::default().q(), conflicts_with_all = ["preset", "config", "check"])]
@@ -101,6 +99,10 @@ impl Subject {
             (None, None) => Ok(None),
         }
     }
+}
+
+fn help_of_method() -> String {
+    format!("{}, or all [default: hermite with --all-real-n, else all].", Method::list())
 }
 
 /// One method, or all of them.

@@ -3,8 +3,8 @@
 //! A = nq/Q, B = (n − 1)/Q, and the denominator at x = 1 is A − B = (1 − n·p)/Q, in which n·p is of
 //! size −ln Q however large n is. (The misprinted derivative in \[Rom\] lacks the square of A − B·x.)
 
-use super::crossing::{WideCrossing, less_one};
-use super::double_double::DoubleDouble;
+use crate::fit::crossing::{WideCrossing, less_one};
+use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Rational;
 
 /// For n = 1 this is x itself.

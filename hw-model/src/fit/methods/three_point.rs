@@ -14,9 +14,9 @@
 //!
 //! The coefficients printed in \[Rom\] do not solve the system printed there; these do.
 
-use super::assemble;
-use super::crossing::WideCrossing;
-use super::double_double::DoubleDouble;
+use crate::fit::assemble;
+use crate::fit::crossing::WideCrossing;
+use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Cubic;
 
 /// For n = 1, 2, 3 the only cubic that satisfies the conditions is x^n itself.

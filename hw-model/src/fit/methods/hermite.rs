@@ -14,9 +14,9 @@
 //! as n → 1. What is left to cancel does so by a factor of 1 − Q at most, and by n − 2 or n − 3 where
 //! a coefficient has its zero; 32 digits carry that.
 
-use super::assemble;
-use super::crossing::{WideCrossing, less_one};
-use super::double_double::DoubleDouble;
+use crate::fit::assemble;
+use crate::fit::crossing::{WideCrossing, less_one};
+use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Cubic;
 
 /// D1 and D2·p = Δ, the divided differences that `hermite` and `quadratic` share.

@@ -14,9 +14,9 @@
 //! Domain: every n ≥ 1. f ≥ 0 for all x ≥ 0. The minimum is m = v/u; for n < 3 it lies below 0
 //! (for n = 1, where u = 0, at −∞), and f then rises all the way from x = 0 to 1.
 
-use super::assemble;
-use super::crossing::{WideCrossing, less_one};
-use super::double_double::DoubleDouble;
+use crate::fit::assemble;
+use crate::fit::crossing::{WideCrossing, less_one};
+use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Cubic;
 
 /// For n = 1 and n = 3 this is x^n itself; for n = 2 it is not.

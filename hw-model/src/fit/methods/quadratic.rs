@@ -3,10 +3,10 @@
 //! The differences D1, D2 and Δ are those of `hermite`; k1 = −D1 + Δ, k2 = D2, k3 = 0. Its value at
 //! x = 0 is not zero: d = 1 − k1 + k2.
 
-use super::assemble;
-use super::crossing::WideCrossing;
-use super::double_double::DoubleDouble;
 use super::hermite::Differences;
+use crate::fit::assemble;
+use crate::fit::crossing::WideCrossing;
+use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Cubic;
 
 /// For n = 1 and n = 2 the only such parabola is x^n itself.
