@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::bail;
-use clap::{Args as ClapArgs, ValueEnum};
+use clap::Args as ClapArgs;
 
 use super::out::{Out, Outcome};
 use super::output;
@@ -15,11 +15,8 @@ use scenes::scene::{Knot, Normals, triangles};
 /// A tube along a torus knot bends in every direction, so that its highlights meet every angle. The same command
 /// writes the same bytes. Without --out the mesh goes to standard output.
 #[derive(ClapArgs)]
-#[command(after_help = "Example: blysk mesh --kind torus-knot --along 64 --sides 12 --out knot.obj")]
+#[command(after_help = "Example: blysk mesh --along 64 --sides 12 --out knot.obj")]
 pub(super) struct Args {
-    /// Which mesh to make.
-    #[arg(long, value_enum, default_value_t)]
-    kind: Kind,
     /// Turns of the knot round the axis of its torus, 1 to 16.
     #[arg(long, value_name = "COUNT", default_value_t = 2)]
     around: u32,
@@ -35,26 +32,9 @@ pub(super) struct Args {
     /// Radius of the tube, 0.01 to 0.5, where the torus has radius 1.
     #[arg(long, value_name = "RADIUS", default_value_t = 0.22)]
     tube: f64,
-    /// The format of the file.
-    #[arg(long, value_enum, default_value_t)]
-    format: Format,
     /// Write to this file; - is standard output.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-}
-
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum Kind {
-    /// A tube along a torus knot.
-    #[default]
-    TorusKnot,
-}
-
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum Format {
-    /// A Wavefront OBJ file.
-    #[default]
-    Obj,
 }
 
 /// Triangles of the largest mesh: a file of some 100 MB.
@@ -62,7 +42,6 @@ const MOST_TRIANGLES: u64 = 4_000_000;
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let Args { around, through, along, sides, tube, .. } = *args;
-    let (Kind::TorusKnot, Format::Obj) = (args.kind, args.format);
     let knot = Knot::new(around, through, along, sides, tube)?;
     if knot.triangle_count() > MOST_TRIANGLES {
         bail!(
@@ -71,7 +50,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         );
     }
     let origin = format!(
-        "blysk mesh --kind torus-knot --around {around} --through {through} --along {along} \
+        "blysk mesh --around {around} --through {through} --along {along} \
          --sides {sides} --tube {tube}"
     );
     let file = output::file(args.out.as_ref(), &[])?;

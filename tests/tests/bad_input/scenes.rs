@@ -209,7 +209,6 @@ fn options_of_render_and_mesh() {
         ("--along 100000 --sides 10000", &["triangles", "4000000"]),
         ("--tube NaN", &["--tube NaN", "0.01 to 0.5"]),
         ("--tube 0.6", &["--tube 0.6", "0.01 to 0.5"]),
-        ("--kind teapot", &["teapot", "torus-knot"]),
     ] {
         bench.refused(&format!("mesh --out new/m.obj {options}"), said);
     }

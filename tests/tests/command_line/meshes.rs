@@ -65,7 +65,7 @@ fn a_mark_takes_no_vertex() {
 #[test]
 fn groups_cut_no_normals() {
     let bench = bench!();
-    let _made = bench.good("mesh --kind torus-knot --along 24 --sides 8 --out knot.obj");
+    let _made = bench.good("mesh --along 24 --sides 8 --out knot.obj");
     let plain = bench.text("knot.obj");
     let faces: Vec<usize> = plain.match_indices("\nf ").map(|(place, _)| place).collect();
     let grouped = |line: &str| {

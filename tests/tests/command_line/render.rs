@@ -148,7 +148,7 @@ fn a_mesh_of_our_own() {
     let bench = bench!();
     let said = bench.good("mesh --along 40 --sides 8 --out meshes/knot.obj");
     assert_eq!(said, "640 triangles, written to meshes/knot.obj\n");
-    let shown = bench.good("mesh --kind torus-knot --along 40 --sides 8");
+    let shown = bench.good("mesh --along 40 --sides 8");
     assert_eq!(shown, bench.text("meshes/knot.obj"));
     let text = std::fs::read_to_string(scene("torus_knot")).unwrap();
     std::fs::create_dir(bench.path("scenes")).unwrap();
