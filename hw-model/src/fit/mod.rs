@@ -8,10 +8,9 @@
 //! the error is still below 10⁻¹⁵). For Q below 10⁻⁹, b, c and d, which tend to 0 there while k1, k2,
 //! k3 do not, are accurate to 10⁻³¹ of the greatest coefficient, and not relative to themselves.
 //!
-//! The formulas, method by method, stand in the files of their names in `methods/`, and what each method is in the table
-//! beside them. \[Rom\] is O. N. Romaniuk,
-//! A. L. V. Chan, P. I. Mykhaylov, R. Yu. Chekhmestruk, I. V. Perun, "Approximation of classical
-//! distributive functions using a cubic polynomial" (in Ukrainian).
+//! The formulas, method by method, stand in the files of their names in `methods/`, and what each method is in the
+//! table beside them. \[Rom\] is O. N. Romaniuk, A. L. V. Chan, P. I. Mykhaylov, R. Yu. Chekhmestruk, I. V. Perun,
+//! "Approximation of classical distributive functions using a cubic polynomial" (in Ukrainian).
 
 mod assemble;
 mod crossing;
