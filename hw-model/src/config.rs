@@ -217,8 +217,11 @@ impl Config {
         self.check_degree()?;
         self.check_segments()?;
         self.check_formats()?;
-        steps::check(self)?;
-        domain::check(self)?;
+        let degree = self.method.has_polynomial().then_some(self.degree);
+        steps::check(&self.coefficient_steps, &self.exponents, self.segments, degree)
+            .or_else(|problem| wrong("coefficient_steps", problem))?;
+        domain::check(&self.domain, &self.exponents, self.tail != Tail::Zero)
+            .or_else(|problem| wrong("domain", problem))?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }

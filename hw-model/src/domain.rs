@@ -7,7 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::config::{Config, ConfigError, Tail};
+use crate::exponents::Exponents;
+use crate::format::QFormat;
 use crate::quantise::round_scaled;
 use crate::rounding::Rounding;
 
@@ -21,49 +22,43 @@ pub struct Presented {
     pub least: f64,
 }
 
-fn wrong<T>(problem: String) -> Result<T, ConfigError> {
-    Err(ConfigError::Field { field: "domain", problem })
-}
-
-/// Checks what can be checked without the rows.
-pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
-    let domain = &config.domain;
+/// Checks what can be checked without the rows: of a configuration of these exponents, with a tail or without.
+///
+/// # Errors
+/// What is wrong, and what would be right.
+pub(crate) fn check(domain: &[Presented], exponents: &Exponents, has_tail: bool) -> Result<(), String> {
     if domain.is_empty() {
         return Ok(());
     }
-    if config.tail != Tail::Zero {
-        return wrong(
-            "a domain leaves out what answers below the cut: say \"tail\": \"zero\", or leave \
-             the domain out"
-                .to_owned(),
-        );
+    if has_tail {
+        return Err("a domain leaves out what answers below the cut: say \"tail\": \"zero\", or leave the domain \
+                    out"
+        .to_owned());
     }
-    if !config.exponents.iter().eq(domain.iter().map(|presented| presented.n)) {
-        let exponents = &config.exponents;
-        return wrong(format!("give one n and least for each exponent, in the order {exponents}"));
+    if !exponents.iter().eq(domain.iter().map(|presented| presented.n)) {
+        return Err(format!("give one n and least for each exponent, in the order {exponents}"));
     }
     match domain.iter().find(|presented| !(0.0..=1.0).contains(&presented.least)) {
-        Some(Presented { n, least }) => wrong(format!("least of n = {n} is {least}; use a number from 0 to 1")),
+        Some(Presented { n, least }) => Err(format!("least of n = {n} is {least}; use a number from 0 to 1")),
         None => Ok(()),
     }
 }
 
-/// The least x of the domain of an exponent, in the input's unit and rounded down, which no presented x rounds below;
-/// none where the configuration has no domain.
+/// The least x of the domain of an exponent, in the unit of `input` and rounded down; no presented x rounds below it.
+/// None where there is no domain.
 ///
 /// # Errors
 /// When the row's polynomial does not answer there: the domain begins below `cut`.
-pub(crate) fn least_bits(config: &Config, exponent: f64, cut: i64) -> Result<Option<i64>, ConfigError> {
-    let Some(presented) = config.domain.iter().find(|presented| presented.n == exponent) else {
+pub(crate) fn least_bits(domain: &[Presented], input: QFormat, exponent: f64, cut: i64) -> Result<Option<i64>, String> {
+    let Some(presented) = domain.iter().find(|presented| presented.n == exponent) else {
         return Ok(None);
     };
-    let fraction = config.input.fraction_bits();
-    let bits = round_scaled(presented.least, fraction, Rounding::Floor).unwrap_or(0) as i64;
+    let bits = round_scaled(presented.least, input.fraction_bits(), Rounding::Floor).unwrap_or(0) as i64;
     if bits >= cut {
         return Ok(Some(bits));
     }
-    let needed = cut as f64 * config.input.ulp();
-    wrong(format!(
+    let needed = cut as f64 * input.ulp();
+    Err(format!(
         "least of n = {exponent} is {}, below its cut at {needed}, where zero answers; use {needed} or more, or \
          leave the domain out",
         presented.least

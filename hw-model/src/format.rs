@@ -11,8 +11,6 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::quantise::power_of_two;
-
 /// The widest register, in bits.
 pub const MAX_WIDTH: u32 = 63;
 
@@ -252,6 +250,11 @@ impl From<QFormat> for String {
     fn from(format: QFormat) -> Self {
         format.to_string()
     }
+}
+
+/// 2^power as an f64, without a call; for powers from −1022 to 1023.
+pub(crate) const fn power_of_two(power: i32) -> f64 {
+    f64::from_bits(((1023 + power) as u64) << 52)
 }
 
 #[cfg(test)]

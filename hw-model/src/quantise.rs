@@ -6,7 +6,7 @@
 use fixed::types::I64F64;
 use thiserror::Error;
 
-use crate::format::{DoesNotFit, Overflow, QFormat};
+use crate::format::{DoesNotFit, Overflow, QFormat, power_of_two};
 use crate::rounding::Rounding;
 
 /// Why a real number did not become bits.
@@ -116,11 +116,6 @@ pub fn quantise_moved(value: f64, format: QFormat, rounding: Rounding, steps: i3
 pub fn real(bits: i64, format: QFormat) -> f64 {
     // Rounded here, where it needs to be; a power of two moves it and loses nothing.
     bits as f64 * format.ulp()
-}
-
-/// 2^power as an f64, without a call; for powers from −1022 to 1023.
-pub(crate) const fn power_of_two(power: i32) -> f64 {
-    f64::from_bits(((1023 + power) as u64) << 52)
 }
 
 /// The exact decimal value of `bits` in `format`, without trailing zeros: `0.5`, `-1.25`, `3`.

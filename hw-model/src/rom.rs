@@ -9,11 +9,9 @@
 
 use dashu_int::UBig;
 
-use crate::datapath::front_end::{FrontEnd, Region};
 use crate::exponents::Exponents;
 use crate::format::QFormat;
 use crate::registers::{MAX_DEGREE, Register};
-use crate::rounding::Lane;
 
 /// The bits of one row, in the formats of the [`Layout`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -65,13 +63,10 @@ pub trait Fetched {
     fn get(&self, field: Register) -> i64;
     /// False where the address has no word, and the fields are those of another one.
     fn known(&self) -> bool;
-    /// The part that answers for x (not clamped) in a row that there is.
+    /// True where it is known beforehand that the polynomial answers, whatever x is.
     #[inline(always)]
-    fn region<L: Lane>(&self, front_end: &FrontEnd, x: L) -> Region
-    where
-        Self: Sized,
-    {
-        front_end.region(x, L::from_bits(front_end.cut(self)))
+    fn is_polynomial(&self) -> bool {
+        false
     }
 }
 

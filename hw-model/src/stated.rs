@@ -1,7 +1,7 @@
 //! The registers that a configuration can state: their formats, what they take, and the hardware they make.
 
+use crate::datapath::HEAD_RANKS;
 use crate::datapath::Signals;
-use crate::datapath::ranks::HEAD_RANKS;
 use crate::datapath::reach::{Extreme, Reach};
 use crate::design::Design;
 use crate::format::QFormat;

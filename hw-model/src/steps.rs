@@ -12,7 +12,7 @@ use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-use crate::config::{Config, ConfigError};
+use crate::exponents::Exponents;
 use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, Register};
 
 /// The farthest a coefficient is moved either way. Beyond it is no correction.
@@ -117,38 +117,44 @@ impl<'de> Visitor<'de> for ByName {
     }
 }
 
-/// Checks the steps of a configuration against its exponents, method and segments.
+/// Checks the steps of a configuration against its exponents, its segments and the degree of its polynomial, if it has
+/// one.
 ///
 /// # Errors
 /// Names the exponent and what would be right.
-pub(crate) fn check(config: &Config) -> Result<(), ConfigError> {
-    let steps = &config.coefficient_steps;
-    let wrong = |problem: String| Err(ConfigError::Field { field: "coefficient_steps", problem });
-    if !steps.is_empty() && !config.method.has_polynomial() {
-        return wrong("schlick has no polynomial; leave them out".to_owned());
+pub(crate) fn check(
+    steps: &[CoefficientSteps],
+    exponents: &Exponents,
+    segments: usize,
+    degree: Option<usize>,
+) -> Result<(), String> {
+    if steps.is_empty() {
+        return Ok(());
     }
-    let mut seen = vec![false; config.exponents.len()];
+    let Some(degree) = degree else {
+        return Err("schlick has no polynomial; leave them out".to_owned());
+    };
+    let mut seen = vec![false; exponents.len()];
     for of_row in steps {
         let n = of_row.n;
-        let Some(seen) = config.exponents.position(n).and_then(|at| seen.get_mut(at)) else {
-            return wrong(format!("the ROM has no row for n = {n}; it has {}", config.exponents));
+        let Some(seen) = exponents.position(n).and_then(|at| seen.get_mut(at)) else {
+            return Err(format!("the ROM has no row for n = {n}; it has {exponents}"));
         };
         if std::mem::replace(seen, true) {
-            return wrong(format!("n = {n} comes twice; say all of its steps at once"));
+            return Err(format!("n = {n} comes twice; say all of its steps at once"));
         }
         if let Some((field, steps)) = of_row.moved().find(|(_, steps)| steps.unsigned_abs() > MOST_STEPS.unsigned_abs())
         {
-            return wrong(format!("n = {n}: {steps} steps of {field} are too many; use -{MOST_STEPS} to {MOST_STEPS}"));
+            return Err(format!("n = {n}: {steps} steps of {field} are too many; use -{MOST_STEPS} to {MOST_STEPS}"));
         }
         let beyond = |register: &Register| match *register {
-            Register::C(segment, power) => segment >= config.segments || power > config.degree,
+            Register::C(segment, power) => segment >= segments || power > degree,
             _ => false,
         };
         if let Some((field, _)) = of_row.moved().find(|(field, _)| beyond(field)) {
-            return wrong(format!(
-                "n = {n}: there is no {field} where \"segments\" is {} and \"degree\" {}; leave its \
-                 steps out",
-                config.segments, config.degree
+            return Err(format!(
+                "n = {n}: there is no {field} where \"segments\" is {segments} and \"degree\" {degree}; leave its \
+                 steps out"
             ));
         }
     }

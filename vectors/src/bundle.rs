@@ -22,7 +22,7 @@ use crate::manifest::{
 use crate::memory_file::{Header, write_header, write_word};
 use crate::negative_control::{Flip, NegativeControl};
 use crate::packing::WordLayout;
-use crate::rtl::{EXPONENTS, STAGES};
+use crate::rtl::files::{EXPONENTS, STAGES};
 use crate::stimulus::Stimulus;
 use crate::table::TableWriter;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};

@@ -2,7 +2,7 @@
 
 use super::polynomial::{derivative, magnitude};
 use super::{Bound, RowPolynomial};
-use crate::quantise::power_of_two;
+use crate::format::power_of_two;
 use crate::registers::{MAX_DEGREE, Register, Table};
 use crate::rounding::Rounding;
 use crate::steps::Steps;

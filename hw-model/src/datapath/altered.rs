@@ -6,7 +6,7 @@
 //! [`QFormat::from_word`](crate::format::QFormat::from_word).
 
 use super::front_end::FrontEnd;
-use super::ranks::Datapath;
+use super::parts::Datapath;
 use super::stage::{MultiplyAdd, Stages};
 use super::tail::Divider;
 

@@ -12,7 +12,7 @@ use crate::rounding::{Lane, Rounding};
 use super::compose::{Anything, Cubics, Known, Lines, RoundedCubics};
 use super::front_end::Region;
 use super::keep::{Damage, Keep, Registers};
-use super::ranks::Datapath;
+use super::parts::Datapath;
 
 /// Samples that go through the lines together.
 const LANES: usize = 64;

@@ -17,7 +17,7 @@ use crate::rounding::{Lane, Rounding};
 use super::clamp::clamp;
 use super::front_end::{FrontEnd, Region};
 use super::keep::{Keep, Registers};
-use super::ranks::Datapath;
+use super::parts::Datapath;
 use super::signals::Status;
 use super::stage::{MultiplyAdd, Stages};
 use super::tail::{Divider, Division};
@@ -184,7 +184,13 @@ impl Lines {
         let front_end = &self.front_end;
         let one = L::from_bits(front_end.one);
         let x = front_end.clamp_input(given);
-        let region = if row.known() { row.region(front_end, given) } else { Region::Zero };
+        let region = if !row.known() {
+            Region::Zero
+        } else if row.is_polynomial() {
+            Region::Polynomial
+        } else {
+            front_end.region(given, L::from_bits(front_end.cut(row)))
+        };
         let segments = if K::SEGMENTS > 0 { K::SEGMENTS } else { front_end.segments };
         let mut index = 0;
         let mut segment = self.segment::<L, K>(row, 0);

@@ -12,7 +12,7 @@ use crate::rounding::{Lane, Rounding};
 use super::compose::{Anything, Known, Lines, Plain};
 use super::front_end::Region;
 use super::keep::{Registers, Whole};
-use super::ranks::{Datapath, HEAD_RANKS};
+use super::parts::{Datapath, HEAD_RANKS};
 use super::signals::{Signals, Status};
 use super::tail::Division;
 

@@ -8,7 +8,7 @@ use crate::format::QFormat;
 use crate::registers::{MAX_DEGREE, Register};
 use crate::rounding::Lane;
 
-use super::ranks::{Datapath, HEAD_RANKS};
+use super::parts::{Datapath, HEAD_RANKS};
 
 /// A register that keeps less than it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

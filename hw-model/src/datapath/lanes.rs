@@ -13,7 +13,7 @@ use std::ops::{Add, BitAnd, Mul, Neg, Shl, Shr, Sub};
 use crate::format::QFormat;
 use crate::rounding::Lane;
 
-use super::ranks::Datapath;
+use super::parts::Datapath;
 
 /// An `i64` of which only the low 32 bits, as a signed number, go into a product.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

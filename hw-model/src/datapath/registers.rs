@@ -5,7 +5,7 @@ use crate::registers::Register;
 use crate::rom::Place;
 
 use super::formats::{PolynomialFormats, TailFormats};
-use super::ranks::{Datapath, HEAD_RANKS};
+use super::parts::{Datapath, HEAD_RANKS};
 use super::signals::RankRegister;
 
 impl Datapath {

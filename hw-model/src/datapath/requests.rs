@@ -15,7 +15,7 @@ use super::compose::{Anything, Cubics, Known, Lines, Plain};
 use super::flight::{Flight, Logic};
 use super::front_end::Region;
 use super::keep::{Registers, Whole};
-use super::ranks::Datapath;
+use super::parts::Datapath;
 use super::signals::Status;
 
 /// `N` requests and their results, of which `W` are evaluated together. Fill in addresses and x;

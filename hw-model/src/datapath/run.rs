@@ -15,7 +15,7 @@ use super::compose::{Anything, Cubics, Known, Lines, Plain};
 use super::front_end::{FrontEnd, Region};
 use super::keep::{Registers, Whole};
 use super::lanes::Half;
-use super::ranks::Datapath;
+use super::parts::Datapath;
 
 /// Divisions under way together: their registers stay in the first-level cache.
 const DIVISIONS: usize = 128;
@@ -89,8 +89,8 @@ impl Fetched for OneSegment {
         true
     }
     #[inline(always)]
-    fn region<L: Lane>(&self, _: &FrontEnd, _: L) -> Region {
-        Region::Polynomial
+    fn is_polynomial(&self) -> bool {
+        true
     }
 }
 

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use super::{Design, DesignError};
+use super::error::DesignError;
+use super::whole::Design;
 use crate::format::{DoesNotFit, Overflow};
 use crate::presets;
 use crate::quantise::{QuantiseError, real, x_bits};

@@ -7,77 +7,34 @@
 //! ```
 
 mod doubt;
+mod error;
 mod highlight;
+mod parts;
 mod polynomial;
 mod real_row;
 mod revision;
 mod rom_row;
 mod shares;
 mod tail;
+mod whole;
 
-use thiserror::Error;
-
-use crate::budget::{Bound, BudgetError};
-use crate::config::{Config, ConfigError, Form};
+use crate::budget::BudgetError;
+use crate::config::{Config, ConfigError};
 use crate::datapath::Datapath;
-use crate::datapath::formats::Formats;
 use crate::datapath::front_end::FrontEnd;
 use crate::datapath::stage::Stages;
 use crate::domain;
-use crate::fit::FitError;
 use crate::format::QFormat;
-use crate::presets;
-use crate::quantise::QuantiseError;
-use crate::registers::Register;
-use crate::rom::{Rom, Row};
+use crate::rom::Rom;
+use parts::Parts;
 
+pub use error::DesignError;
 pub use highlight::HighlightError;
 pub use real_row::{RealRow, RealSegment};
 pub use revision::Revision;
 pub use rom_row::RomRow;
 pub use shares::Share;
-
-/// Why a configuration gives no hardware.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum DesignError {
-    /// A preset that is none.
-    #[error("there is no preset {name:?}; there are {}", presets::ALL.map(|preset| preset.name).join(", "))]
-    NoPreset {
-        /// The name.
-        name: String,
-    },
-    /// The configuration contradicts itself.
-    #[error(transparent)]
-    Config(#[from] ConfigError),
-    /// A method has no fit for one of the exponents.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-    /// No widths keep the budget, or a stated width is too small.
-    #[error(transparent)]
-    Budget(#[from] BudgetError),
-    /// A ROM field does not hold the value of a row.
-    #[error("ROM field {field} at n = {exponent}: {source}")]
-    Quantise {
-        /// The field's name, as in the ROM's layout.
-        field: &'static str,
-        /// The row's exponent.
-        exponent: f64,
-        /// What is wrong with the value or the format.
-        source: QuantiseError,
-    },
-}
-
-/// A configuration with everything that follows from it.
-#[derive(Debug, Clone)]
-pub struct Design {
-    config: Config,
-    /// As they were fitted: before their ends were rounded to stated formats, and the domain cut them off.
-    fitted: Vec<RealRow>,
-    rows: Vec<RealRow>,
-    bounds: Vec<Bound>,
-    datapath: Datapath,
-}
+pub use whole::Design;
 
 impl Design {
     /// Derives rows, widths, ROM and data path.
@@ -100,7 +57,9 @@ impl Design {
     fn of_rows(config: Config, fitted: Vec<RealRow>) -> Result<Self, DesignError> {
         let mut rows: Vec<RealRow> = fitted.iter().map(|row| row.in_places(&config)).collect();
         for row in &mut rows {
-            row.cut = domain::least_bits(&config, row.exponent, row.cut)?.unwrap_or(row.cut);
+            let least = domain::least_bits(&config.domain, config.input, row.exponent, row.cut);
+            let least = least.map_err(|problem| ConfigError::Field { field: "domain", problem })?;
+            row.cut = least.unwrap_or(row.cut);
         }
         let mut parts = Parts::new(&config, &rows);
         let polynomial = polynomial::derive(&config, &rows, &mut parts)?;
@@ -131,82 +90,5 @@ impl Design {
         };
         doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
-    }
-
-    /// The configuration from which this design follows.
-    #[must_use]
-    pub const fn config(&self) -> &Config {
-        &self.config
-    }
-
-    /// The real functions behind each ROM row, in the order of the addresses.
-    #[must_use]
-    pub fn rows(&self) -> &[RealRow] {
-        &self.rows
-    }
-
-    /// The proved error bound of each row, in output ulp. (An output format that does not reach 1 shows
-    /// its greatest value there: that ulp is the format's, and not in the bound.)
-    #[must_use]
-    pub fn bounds(&self) -> &[Bound] {
-        &self.bounds
-    }
-
-    /// The data path: integers in, integers out, without a clock.
-    #[must_use]
-    pub const fn datapath(&self) -> &Datapath {
-        &self.datapath
-    }
-
-    /// The ROM that the data path reads, row by row.
-    #[must_use]
-    pub const fn rom(&self) -> &Rom {
-        self.datapath.rom()
-    }
-
-    /// True where the polynomial is evaluated in u = (1 − x)·2^e.
-    #[must_use]
-    pub fn is_centred(&self) -> bool {
-        self.config.form == Form::Centred
-    }
-}
-
-/// What the derivation of the polynomial and of the tail add to.
-struct Parts {
-    rom_rows: Vec<Row>,
-    fields: Vec<(Register, QFormat)>,
-    formats: Formats,
-    bounds: Vec<Bound>,
-    /// Every line with the bits it needs.
-    lane_bits: Vec<(&'static str, u32)>,
-    /// Stated formats that the ranges refuse.
-    doubts: Vec<doubt::Doubt>,
-}
-
-impl Parts {
-    fn new(config: &Config, rows: &[RealRow]) -> Self {
-        Self {
-            rom_rows: vec![Row::default(); rows.len()],
-            fields: Vec::new(),
-            formats: Formats {
-                input: config.input,
-                output: config.output,
-                polynomial: None,
-                tail: None,
-                cut: None,
-                hand_over: None,
-            },
-            bounds: vec![Bound::default(); rows.len()],
-            lane_bits: Vec::new(),
-            doubts: Vec::new(),
-        }
-    }
-
-    /// Adds a field whose bits are given for each row.
-    fn add_field(&mut self, name: Register, format: QFormat, bits: impl Iterator<Item = i64>) {
-        self.fields.push((name, format));
-        for (row, bits) in self.rom_rows.iter_mut().zip(bits) {
-            row.set(name, bits);
-        }
     }
 }

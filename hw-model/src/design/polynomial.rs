@@ -1,7 +1,9 @@
 //! Widths, ROM fields and lines of the polynomial.
 
 use super::doubt::Doubt;
-use super::{DesignError, Parts, RealRow};
+use super::error::DesignError;
+use super::parts::Parts;
+use super::real_row::RealRow;
 use crate::budget::error::{FractionBits, Sensitivity, Surroundings, chosen};
 use crate::budget::range::{Carried, Range, ranges};
 use crate::budget::search::Search;

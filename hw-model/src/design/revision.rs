@@ -8,7 +8,8 @@ use crate::rounding::Rounding;
 use crate::steps::CoefficientSteps;
 use crate::widths::{STATED, StatedWidths};
 
-use super::{Design, DesignError};
+use super::error::DesignError;
+use super::whole::Design;
 
 /// What may change while the real rows stay.
 #[derive(Debug, Clone, PartialEq)]

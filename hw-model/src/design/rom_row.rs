@@ -13,7 +13,7 @@ use crate::quantise::real;
 use crate::registers::{MAX_DEGREE, Register};
 use crate::rom::Row;
 
-use super::Design;
+use super::whole::Design;
 
 /// One ROM row as real functions.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,8 +1,9 @@
 //! What each register adds to the error bound, and what one bit less of it would cost.
 
 use super::polynomial::{pieces, stated, surroundings};
+use super::real_row::RealRow;
 use super::tail::row_tail;
-use super::{Design, RealRow};
+use super::whole::Design;
 use crate::budget::RowTail;
 use crate::budget::error::{FractionBits, Sensitivity, chosen};
 use crate::budget::tail::{TailWidths, shares};

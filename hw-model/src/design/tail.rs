@@ -1,7 +1,9 @@
 //! Widths, ROM fields and the divider of the tail.
 
+use super::error::DesignError;
+use super::parts::Parts;
 use super::polynomial::surroundings;
-use super::{DesignError, Parts, RealRow};
+use super::real_row::RealRow;
 use crate::budget::tail::{self, StatedTail};
 use crate::budget::{BudgetError, RowTail};
 use crate::config::Config;

@@ -1,6 +1,7 @@
 //! Where x^n crosses a level, computed so that neither x nor 1 − x loses digits.
 
 use super::double_double::DoubleDouble;
+use super::error::{FitError, checked};
 
 /// The point of [0, 1] at which x^n has a given value. x + s = 1, each rounded from the real number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +39,19 @@ impl WideCrossing {
     pub fn rounded(&self) -> Crossing {
         Crossing { x: self.x.to_f64(), s: self.s.to_f64() }
     }
+}
+
+/// Where x^n crosses `level`, 0 < level ≤ 1: x = level^(1/n), and s = 1 − x without cancellation.
+///
+/// # Errors
+/// When the exponent is outside 1..=[`MAX_EXPONENT`](crate::exponents::MAX_EXPONENT), or the level is not above 0 (subnormal numbers
+/// included) and at most 1.
+pub fn crossing(exponent: f64, level: f64) -> Result<Crossing, FitError> {
+    let exponent = checked(exponent)?;
+    if !(f64::MIN_POSITIVE..=1.0).contains(&level) {
+        return Err(FitError::Level(level));
+    }
+    Ok(WideCrossing::new(exponent, level).rounded())
 }
 
 /// n − 1, exactly.

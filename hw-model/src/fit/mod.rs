@@ -16,32 +16,21 @@ mod assemble;
 mod crossing;
 mod curve;
 mod double_double;
+mod error;
 mod levels;
 mod methods;
 pub mod minimax;
 
-use thiserror::Error;
-
-pub use crossing::Crossing;
+pub use crossing::{Crossing, crossing};
 pub use curve::{Curve, Fit};
+pub use error::FitError;
 pub use levels::{Levels, LevelsError};
 pub use methods::{Capabilities, Hardware, Method, UnknownMethod};
 
-use crate::exponents::MAX_EXPONENT;
 use crossing::WideCrossing;
+use error::checked;
 
-/// Why a fit is refused.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum FitError {
-    /// The exponent is outside 1..=[`MAX_EXPONENT`].
-    #[error("the exponent {0} is out of range; exponents are numbers from 1 to 1e15")]
-    Exponent(f64),
-    /// The level is not one that x^n crosses.
-    #[error("the level {0} is out of range; x^n crosses every level above 0 and up to 1")]
-    Level(f64),
-}
-
-/// Fits one exponent n, 1 ≤ n ≤ [`MAX_EXPONENT`], any real number.
+/// Fits one exponent n, 1 ≤ n ≤ [`MAX_EXPONENT`](crate::exponents::MAX_EXPONENT), any real number.
 ///
 /// # Errors
 /// When the exponent is outside that range.
@@ -49,23 +38,6 @@ pub fn fit(method: Method, exponent: f64, levels: Levels) -> Result<Fit, FitErro
     let at_q = WideCrossing::new(checked(exponent)?, levels.q());
     let curve = (method.capabilities().fit)(exponent, levels, &at_q);
     Ok(Fit { epicentre: at_q.rounded(), curve })
-}
-
-/// Where x^n crosses `level`, 0 < level ≤ 1: x = level^(1/n), and s = 1 − x without cancellation.
-///
-/// # Errors
-/// When the exponent is outside 1..=[`MAX_EXPONENT`], or the level is not above 0 (subnormal numbers
-/// included) and at most 1.
-pub fn crossing(exponent: f64, level: f64) -> Result<Crossing, FitError> {
-    let exponent = checked(exponent)?;
-    if !(f64::MIN_POSITIVE..=1.0).contains(&level) {
-        return Err(FitError::Level(level));
-    }
-    Ok(WideCrossing::new(exponent, level).rounded())
-}
-
-fn checked(exponent: f64) -> Result<f64, FitError> {
-    if (1.0..=MAX_EXPONENT).contains(&exponent) { Ok(exponent) } else { Err(FitError::Exponent(exponent)) }
 }
 
 #[cfg(test)]

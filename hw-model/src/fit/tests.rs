@@ -1,6 +1,7 @@
 //! Each method's conditions, asked of the coefficients that came out.
 
 use super::*;
+use crate::exponents::MAX_EXPONENT;
 use crate::highlight::Cubic;
 use crate::highlight::phong_at_s;
 use proptest::prelude::*;

@@ -1,6 +1,6 @@
 //! What is known of a design's registers: what each can hold, and how that is known.
 
-use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::{PolynomialReach, TailReach};
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::design::{Design, Share};

@@ -1,8 +1,8 @@
 //! Why a register is as wide as it is, in words.
 
 use hw_model::config::Config;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::front_end::Variable;
-use hw_model::datapath::ranks::HEAD_RANKS;
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::design::Share;
 use hw_model::format::QFormat;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use hw_model::format::QFormat;
 
-use super::{AnswersError, Column, Got, INTENSITY};
+use super::column::{Column, Got, INTENSITY};
+use super::error::AnswersError;
 use crate::memory_file::{Value, value};
 use crate::records::{Record, RecordError, Records};
 use crate::text_file::{self, ANSWER_LOG, TextError};

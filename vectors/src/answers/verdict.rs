@@ -2,18 +2,9 @@
 
 use hw_model::format::QFormat;
 
-use super::Column;
+use super::column::{Column, Got};
 use super::log::Answer;
 use crate::table::TableRow;
-
-/// What a log says of a port or register.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Got {
-    /// The bits that the log has, in the register's width.
-    Known(i64),
-    /// Some bits are `x` or `z`; the number as written.
-    Unknown(String),
-}
 
 /// A port or register of a vector, expected and found.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! What faulty hardware answers: the data path, with what one rank takes in exchanged.
 
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::front_end::{FrontEnd, Region};
-use hw_model::datapath::ranks::HEAD_RANKS;
 use hw_model::datapath::tail::Division;
 use hw_model::datapath::{Datapath, Signals, Status};
 use hw_model::format::QFormat;

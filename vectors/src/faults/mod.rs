@@ -20,7 +20,7 @@
 pub mod compact;
 pub mod cover;
 mod evaluate;
-mod fault;
+pub(crate) mod fault;
 mod list;
 mod rows;
 mod screen;

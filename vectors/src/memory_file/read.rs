@@ -6,7 +6,7 @@ use std::path::Path;
 use dashu_int::UBig;
 use dashu_int::ops::BitTest;
 
-use super::{LineProblem, MemoryError, at_line};
+use super::error::{LineProblem, MemoryError, at_line};
 use crate::limits::MOST_NUMBERS;
 use crate::text_file::{self, MEMORY};
 

@@ -1,11 +1,13 @@
 //! The hardware as files: RTL, package, testbench, and what runs them.
 
+pub(crate) mod files;
 mod modules;
 mod package;
 pub mod probes;
 mod project;
 pub mod register_log;
 pub mod save_file;
+mod sources;
 mod testbench;
 
 use std::io::Write;
@@ -21,43 +23,16 @@ use crate::case::Strategy;
 use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
+pub use files::{CORE, EXPONENTS, MAKEFILE, SAVE_FILE, STAGES};
+use files::{SCOPE, WAVES};
 pub use modules::Modules;
 pub use package::{package, rounding_name, rounding_number};
 pub use project::core_name;
 pub use save_file::{Names, save_file};
+pub use sources::Sources;
 pub use testbench::testbench;
 
 use probes::StageWord;
-
-/// What `make waves` writes; the scope of the pipeline in it.
-const WAVES: &str = "waves.vcd";
-const SCOPE: &str = "blysk_tb.dut";
-/// What GTKWave shows of it.
-pub const SAVE_FILE: &str = "waves.gtkw";
-/// Every computed register of every vector, for the testbench.
-pub const STAGES: &str = "stages.mem";
-/// The exponent of each ROM word, as the bits of an IEEE double, for messages of the testbench.
-pub const EXPONENTS: &str = "exponents.mem";
-
-/// What the generated files are about.
-#[derive(Debug, Clone, Copy)]
-pub struct Sources<'a> {
-    /// The design that the RTL, the package and the testbench are written for.
-    pub design: &'a Design,
-    /// What modules are called, and which one is under test.
-    pub modules: &'a Modules,
-    /// Vectors in the bundle.
-    pub vectors: u64,
-    /// The vector whose answer is wrong in the negative control.
-    pub control: u64,
-    /// The command that made the files.
-    pub command: &'a str,
-}
-
-/// The Makefile that runs the testbench.
-pub const MAKEFILE: &str = "Makefile";
-/// The FuseSoC core file.
-pub const CORE: &str = "blysk.core";
 
 /// The names of the files of a directory of hardware.
 #[must_use]

@@ -6,7 +6,7 @@
 use hw_model::names::{self, NameError};
 use hw_model::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP};
 
-use super::CORE;
+use super::files::CORE;
 use crate::manifest::ROM;
 
 /// The prefix of all names, and the module under test.

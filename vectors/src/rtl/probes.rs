@@ -1,6 +1,6 @@
 //! What ports and registers are called: in traces, in waves, and in the RTL. `docs/FILES.md` has the table.
 
-use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::format::QFormat;
 use hw_model::registers::Register;

@@ -5,7 +5,10 @@ use hw_model::rtl::SOURCES;
 
 use crate::manifest::ROM;
 
-use super::{Modules, PACKAGE, Sources};
+use hw_model::rtl::PACKAGE;
+
+use super::modules::Modules;
+use super::sources::Sources;
 
 /// The text of the Makefile.
 #[must_use]

@@ -4,8 +4,8 @@ use askama::Template;
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 
-use super::Sources;
 use super::probes::{Probe, StageWord, probes, valid_path};
+use super::sources::Sources;
 
 /// The text of `blysk_tb.sv`.
 #[must_use]

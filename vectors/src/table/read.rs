@@ -5,7 +5,7 @@ use std::io;
 use std::path::Path;
 use std::str::FromStr;
 
-use super::TableError;
+use super::error::TableError;
 use crate::case::Case;
 use crate::limits::MAX_VECTORS;
 use crate::reference::Expected;

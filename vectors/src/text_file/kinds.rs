@@ -1,6 +1,6 @@
 //! How long each kind of input file may be.
 
-use super::TextProblem;
+use super::problem::TextProblem;
 
 /// A kind of input file.
 #[derive(Debug, Clone, Copy)]

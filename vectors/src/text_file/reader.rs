@@ -5,7 +5,8 @@ use std::io::{self, BufRead, Read};
 use memchr::{memchr_iter, memchr2, memrchr};
 
 use super::encoding::{BEGINNING, UTF8_MARK, foreign};
-use super::{TextKind, TextProblem};
+use super::kinds::TextKind;
+use super::problem::TextProblem;
 
 /// Bytes taken from the source at a time.
 const CHUNK: u64 = 1 << 16;

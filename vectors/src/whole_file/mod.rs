@@ -23,6 +23,7 @@
 //! [`remove_temporaries`]. What cannot be handled leaves `.blysk-` and six characters.
 
 mod commit;
+mod descriptors;
 mod error;
 mod list;
 mod set;

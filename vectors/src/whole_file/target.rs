@@ -4,6 +4,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use super::descriptors;
 use super::error::OutputError;
 use super::temporary::parent;
 
@@ -134,50 +135,4 @@ fn is_stream(found: &Metadata) -> bool {
 #[cfg(not(unix))]
 fn is_stream(_: &Metadata) -> bool {
     false
-}
-
-/// `/dev/stdout`, `/dev/fd/3`: paths that stand for what the process has open.
-#[cfg(unix)]
-mod descriptors {
-    use super::*;
-    use std::os::fd::AsFd;
-
-    /// Links that are followed: more are a circle.
-    const MOST_LINKS: usize = 40;
-
-    pub(super) fn standard_output() -> io::Result<File> {
-        io::stdout().as_fd().try_clone_to_owned().map(File::from)
-    }
-
-    /// The number that a path stands for, where it stands for one.
-    pub(super) fn number(path: &Path) -> Option<u32> {
-        let mut path = path.to_owned();
-        for _ in 0..MOST_LINKS {
-            let home = parent(&path).canonicalize().ok()?;
-            if home == Path::new("/dev/fd") || is_of_this_process(&home) {
-                return path.file_name()?.to_str()?.parse().ok();
-            }
-            path = home.join(fs::read_link(&path).ok()?);
-        }
-        None
-    }
-
-    fn is_of_this_process(home: &Path) -> bool {
-        let own = Path::new("/proc").join(std::process::id().to_string());
-        home.starts_with(own) && home.ends_with("fd")
-    }
-}
-
-#[cfg(windows)]
-mod descriptors {
-    use super::*;
-    use std::os::windows::io::AsHandle;
-
-    pub(super) fn standard_output() -> io::Result<File> {
-        io::stdout().as_handle().try_clone_to_owned().map(File::from)
-    }
-
-    pub(super) const fn number(_: &Path) -> Option<u32> {
-        None
-    }
 }

@@ -23,18 +23,20 @@
 
 mod exchange;
 mod segments;
+mod terms;
 
-use exchange::{Digits, Terms};
+use exchange::Digits;
+use terms::power_form;
 
 pub use exchange::Alternation;
 pub use segments::{Fitted, Range, segments};
+pub(crate) use terms::binomial;
 
-use super::FitError;
 use super::assemble;
-use super::crossing::WideCrossing;
-use super::double_double::DoubleDouble;
+use super::crossing::{WideCrossing, crossing};
+use super::error::FitError;
 use crate::highlight::Cubic;
-use crate::registers::{CUBIC, MAX_DEGREE};
+use crate::registers::CUBIC;
 
 /// The best cubic with f(1) = 1 for x ≥ q, and where its error is greatest.
 ///
@@ -48,35 +50,13 @@ pub(super) fn minimax(exponent: f64, at_q: &WideCrossing) -> (Cubic, Option<Alte
     (assemble::rounded([k1, k2, k3], [a, b, c, d]), Some(best.alternation()))
 }
 
-/// c0 − s·(c1 − s·(c2 − …)) in powers of x = 1 − s: the coefficient of x^j is Σ (−1)^(i − j)·(i over j)·c_i over i ≥ j.
-fn power_form(c: &Terms<DoubleDouble>) -> Terms<DoubleDouble> {
-    std::array::from_fn(|j| {
-        (j + 1..=MAX_DEGREE).fold(c[j], |sum, i| {
-            let term = DoubleDouble::from(f64::from(binomial(i, j))) * c[i];
-            if (i - j) % 2 == 0 { sum + term } else { sum - term }
-        })
-    })
-}
-
-/// i over j, for i ≤ 4.
-pub(crate) fn binomial(i: usize, j: usize) -> u32 {
-    (0..j).fold(1, |product, k| product * (i - k) as u32 / (k + 1) as u32)
-}
-
-/// The c of x^n = (1 − s)^n itself, where n is a whole number up to the degree.
-fn monomial(exponent: f64, degree: usize) -> Option<Terms<DoubleDouble>> {
-    let n = (1..=degree).find(|&n| n as f64 == exponent)?;
-    let of_power = |i: usize| if i <= n { f64::from(binomial(n, i)) } else { 0.0 };
-    Some(std::array::from_fn(|i| DoubleDouble::from(of_power(i))))
-}
-
 /// The points at which the best cubic with f(1) = 1 for x^n ≥ `level` has its greatest error; none for n = 1,
 /// 2, 3, where it has none.
 ///
 /// # Errors
 /// When the exponent or the level is out of range.
 pub fn alternation(exponent: f64, level: f64) -> Result<Option<Alternation>, FitError> {
-    super::crossing(exponent, level)?;
+    crossing(exponent, level)?;
     Ok(minimax(exponent, &WideCrossing::new(exponent, level)).1)
 }
 

@@ -1,9 +1,9 @@
 //! Several segments of one error.
 
 use super::super::crossing::WideCrossing;
-use super::super::{FitError, checked};
+use super::super::error::{FitError, checked};
 use super::exchange::{self, Alternation, Best, Digits, Terms, root};
-use super::{monomial, power_form};
+use super::terms::{monomial, power_form};
 use crate::fit::double_double::DoubleDouble;
 use crate::highlight::Segment;
 use crate::registers::MAX_DEGREE;

@@ -1,7 +1,7 @@
 //! Registers whose width nobody states: the last stage's result, whose last place is the output's, and the shifts,
 //! which are counts. Their integer bits follow from what they take.
 
-use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::Reach;
 use hw_model::design::Design;
 use hw_model::format::QFormat;

@@ -1,7 +1,7 @@
 //! Mutants that are other lines of the RTL: the fault model, written into the sources.
 
 use hw_model::datapath::Datapath;
-use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::format::QFormat;
 use hw_model::registers::Register;
 use hw_model::rounding::Rounding;

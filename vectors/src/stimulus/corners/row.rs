@@ -11,7 +11,7 @@ use hw_model::rounding::Rounding;
 
 use super::lattice::{Lattice, climb, powers_apart};
 use super::ties;
-use crate::faults::line_name;
+use crate::faults::fault::line_name;
 use crate::kind::Kind;
 use crate::reference::reference;
 use crate::stimulus::rounds::Point;

@@ -1,7 +1,7 @@
 //! What the model knows of the registers: the least and the greatest value each of them takes.
 
 use hw_model::datapath::Datapath;
-use hw_model::datapath::ranks::HEAD_RANKS;
+use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::{PolynomialReach, Reach, TailReach};
 use hw_model::registers::Register;
 use vectors::rtl::probes;

@@ -1,0 +1,20 @@
+//! What the generated files are about.
+
+use hw_model::design::Design;
+
+use super::modules::Modules;
+
+/// What the generated files are about.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// The design that the RTL, the package and the testbench are written for.
+    pub design: &'a Design,
+    /// What modules are called, and which one is under test.
+    pub modules: &'a Modules,
+    /// Vectors in the bundle.
+    pub vectors: u64,
+    /// The vector whose answer is wrong in the negative control.
+    pub control: u64,
+    /// The command that made the files.
+    pub command: &'a str,
+}
