@@ -23,6 +23,7 @@
 //! Pure: no files, no clock, no randomness, no threads, no command line. Floating point appears only
 //! where real numbers are the subject: [`highlight`], [`fit`], [`quantise`], [`budget`], and the real
 //! rows and the front door of a [`design`]; the data path ([`datapath`]) has none.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod budget;
 pub mod config;

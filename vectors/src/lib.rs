@@ -24,6 +24,7 @@
 //!
 //! The errors say all they know in their message; what the system said is their `cause` and not
 //! their `source()`, so that a program that prints a chain of errors does not say it twice.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod answers;
 pub mod bundle;

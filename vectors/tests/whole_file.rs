@@ -229,7 +229,7 @@ fn neither_inputs_nor_outputs_are_written_over() {
     assert!(matches!(set.file("in").unwrap_err(), OutputError::Input { .. }));
     drop(set);
     let set = OutputSet::apart_from(&inputs, place.path()).unwrap();
-    assert!(matches!(set.expect(["new/x", "in"]).unwrap_err(), OutputError::Input { .. }));
+    assert!(matches!(set.announce(["new/x", "in"]).unwrap_err(), OutputError::Input { .. }));
     let mut staging = Staging::default();
     let _one = staging.begin(&at("new/x")).unwrap();
     let error = staging.begin(&at("./new/x")).unwrap_err();

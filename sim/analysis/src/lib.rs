@@ -1,5 +1,6 @@
 //! What can be said of a method and of a configuration: approximation, hardware errors, searches for better hardware,
 //! work against precision, the claims of \[Rom\], stiff and extreme cases; and the files and figures that say it.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod approximation;
 mod budget;

@@ -2,6 +2,7 @@
 //!
 //! Exit status: 0 done, and what was checked holds; 1 done, and a bound does not hold or an answer is
 //! not the expected one; 2 a usage, configuration, input or output error; 130 and 143 SIGINT and SIGTERM.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 mod answers;
 mod bar;

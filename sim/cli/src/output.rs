@@ -22,7 +22,7 @@ pub(super) fn set<N: AsRef<str>>(
     if is_standard_output(directory) {
         bail!("--out -: several files do not go to standard output; give a directory (./- where it has that name)");
     }
-    Ok(OutputSet::apart_from(inputs, directory)?.listed(command)?.expect(names)?)
+    Ok(OutputSet::apart_from(inputs, directory)?.listed(command)?.announce(names)?)
 }
 
 /// The file that a command writes to `--out FILE`, where `-` is standard output.

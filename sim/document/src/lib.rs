@@ -2,6 +2,7 @@
 //!
 //! What the pages say of values comes from the data path itself: ranges from integers over every row
 //! and every x, waves from the simulator's own run, widths and alignments from the lines that compute.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 mod block;
 mod divider;

@@ -7,6 +7,7 @@
 //!
 //! A picture is a function of its data: no system fonts, no clock, no random identifiers. The same
 //! chart gives the same bytes, so a generated figure can be kept under version control and compared.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 mod axis;
 pub mod canvas;

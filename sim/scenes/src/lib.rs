@@ -2,6 +2,7 @@
 //!
 //! [`scene`] reads what is to be seen, [`render`] makes pictures in which every highlight is an answer of the pipeline,
 //! and [`specialise`] cuts hardware down to what one scene asks. [`report`] is what a picture comes with.
+#![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod render;
 pub mod report;

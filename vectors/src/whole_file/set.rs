@@ -90,7 +90,7 @@ impl OutputSet {
     ///
     /// # Errors
     /// When something that is not a regular file has such a name, or an input, or a directory cannot be written to.
-    pub fn expect<N: AsRef<str>>(mut self, names: impl IntoIterator<Item = N>) -> Result<Self, OutputError> {
+    pub fn announce<N: AsRef<str>>(mut self, names: impl IntoIterator<Item = N>) -> Result<Self, OutputError> {
         let mut directories = BTreeSet::from([self.directory.clone()]);
         for name in names {
             let path = self.directory.join(name.as_ref());
