@@ -1,28 +1,16 @@
-//! `--preset NAME` and `--config FILE`.
+//! `--preset NAME`, `--config FILE` and `--all-presets`.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow, bail};
-use clap::Args;
+use anyhow::{Context, anyhow};
+use clap::{ArgGroup, Args};
 use hw_model::config::{Config, ConfigError};
 use hw_model::design::Design;
 use hw_model::names;
 use hw_model::presets;
 use vectors::text_file::{self, CONFIGURATION, decimal_comma};
 
-/// The options that choose a configuration: a preset's name or a file.
-#[derive(Args)]
-#[group(required = true, multiple = false)]
-pub(super) struct Configuration {
-    /// A preset; `blysk presets` lists them.
-    #[arg(long, value_name = "NAME")]
-    preset: Option<String>,
-    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
-}
-
-/// Which configuration, for a command that may do without one.
+/// The options that choose a configuration, for a command that may do without one.
 #[derive(Clone, Args)]
 #[group(multiple = false)]
 pub(super) struct MaybeConfiguration {
@@ -34,20 +22,43 @@ pub(super) struct MaybeConfiguration {
     config: Option<PathBuf>,
 }
 
+/// The options that choose a configuration, one of which is demanded.
+#[derive(Args)]
+#[command(group(ArgGroup::new("one").args(["preset", "config"]).required(true)))]
+pub(super) struct Configuration {
+    #[command(flatten)]
+    stated: MaybeConfiguration,
+}
+
+/// The options that choose a configuration or every preset, one of which is demanded.
+#[derive(Args)]
+#[command(group(ArgGroup::new("some").args(["preset", "config", "all_presets"]).required(true)))]
+pub(super) struct Configurations {
+    #[command(flatten)]
+    stated: MaybeConfiguration,
+    /// Every preset.
+    #[arg(long)]
+    pub(super) all_presets: bool,
+}
+
 impl MaybeConfiguration {
     /// The hardware of the configuration, where there is one.
     pub(super) fn design(&self) -> anyhow::Result<Option<Design>> {
-        self.stated().map(|stated| stated.design()).transpose()
+        self.load()?.map(|(config, origin)| Design::new(config).with_context(|| origin)).transpose()
     }
 
     /// The configuration, where there is one.
     pub(super) fn config(&self) -> anyhow::Result<Option<Config>> {
-        Ok(self.stated().map(|stated| stated.load()).transpose()?.map(|(config, _)| config))
+        Ok(self.load()?.map(|(config, _)| config))
     }
 
-    /// The option as it would be typed; nothing where there is none.
+    /// The option as it would be typed, for the headers of generated files; nothing where there is none.
     pub(super) fn option(&self) -> String {
-        self.stated().map_or_else(String::new, |stated| stated.option())
+        match (&self.preset, &self.config) {
+            (Some(name), _) => preset_option(name),
+            (None, Some(path)) => format!("--config {}", names::shell(path)),
+            (None, None) => String::new(),
+        }
     }
 
     /// The files that it is read from.
@@ -55,45 +66,62 @@ impl MaybeConfiguration {
         self.config.iter().cloned().collect()
     }
 
-    /// The configuration, where the user states one.
-    fn stated(&self) -> Option<Configuration> {
-        let Self { preset, config } = self.clone();
-        (preset.is_some() || config.is_some()).then_some(Configuration { preset, config })
+    /// The configuration, and what to call it in an error.
+    fn load(&self) -> anyhow::Result<Option<(Config, String)>> {
+        match (&self.preset, &self.config) {
+            (Some(name), _) => Ok(Some((find_preset(name)?.config()?, format!("preset {name}")))),
+            (None, Some(path)) => Ok(Some((load_config(path)?, path.display().to_string()))),
+            (None, None) => Ok(None),
+        }
     }
 }
 
 impl Configuration {
     /// The hardware of the configuration.
     pub(super) fn design(&self) -> anyhow::Result<Design> {
-        let (config, origin) = self.load()?;
-        Design::new(config).with_context(|| origin)
+        // clap demands one of the two.
+        self.stated.design()?.context("say --preset NAME or --config FILE")
     }
 
-    /// The files that it is read from.
+    /// As [`MaybeConfiguration::files`].
     pub(super) fn files(&self) -> Vec<PathBuf> {
-        self.config.iter().cloned().collect()
+        self.stated.files()
     }
 
-    /// The option as it would be typed, for the headers of generated files.
+    /// As [`MaybeConfiguration::option`].
     pub(super) fn option(&self) -> String {
-        match (&self.preset, &self.config) {
-            (Some(name), _) => format!("--preset {}", names::shell(name)),
-            (None, Some(path)) => format!("--config {}", names::shell(path)),
-            (None, None) => String::new(),
+        self.stated.option()
+    }
+}
+
+impl Configurations {
+    /// Each configuration, with the option that chooses it.
+    pub(super) fn designs(&self) -> anyhow::Result<Vec<(Design, String)>> {
+        if self.all_presets {
+            let made = |preset: presets::Preset| {
+                let design = Design::new(preset.config()?).with_context(|| format!("preset {}", preset.name))?;
+                Ok((design, preset_option(preset.name)))
+            };
+            return presets::ALL.into_iter().map(made).collect();
         }
+        // clap demands one of the three.
+        let design = self.stated.design()?.context("say --preset NAME, --config FILE or --all-presets")?;
+        Ok(vec![(design, self.stated.option())])
     }
 
-    fn load(&self) -> anyhow::Result<(Config, String)> {
-        match (&self.preset, &self.config) {
-            (Some(name), _) => {
-                let preset = find_preset(name)?;
-                Ok((preset.config()?, format!("preset {name}")))
-            }
-            (None, Some(path)) => Ok((load_config(path)?, path.display().to_string())),
-            // clap demands one of the two.
-            (None, None) => bail!("say --preset NAME or --config FILE"),
-        }
+    /// The option as it would be typed.
+    pub(super) fn option(&self) -> String {
+        if self.all_presets { "--all-presets".to_owned() } else { self.stated.option() }
     }
+
+    /// As [`MaybeConfiguration::files`].
+    pub(super) fn files(&self) -> Vec<PathBuf> {
+        self.stated.files()
+    }
+}
+
+fn preset_option(name: &str) -> String {
+    format!("--preset {}", names::shell(name))
 }
 
 /// The configuration in a file.

@@ -3,16 +3,15 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::{Context, bail};
+use anyhow::bail;
 use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::design::Design;
 use hw_model::exponents::{Exponents, parse_exponent};
-use hw_model::presets;
 use vectors::OutputSet;
 use vectors::limits::{Sweep, inputs};
 
 use super::bar::Bar;
-use super::configuration::{find_preset, load_config};
+use super::configuration::Configurations;
 use super::out::{Out, Outcome};
 use super::output;
 use super::table::{Cell, Format, Rows, digits, write_folded};
@@ -31,7 +30,7 @@ use analysis::report::files;
                         blysk report --all-presets --out results")]
 pub(super) struct Args {
     #[command(flatten)]
-    subject: Subject,
+    subject: Configurations,
     /// Write the report's files to this directory (with --all-presets: one directory inside for each).
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -50,20 +49,6 @@ pub(super) struct Args {
     /// What to print: a summary (table), or every row (csv, json).
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-}
-
-#[derive(ClapArgs)]
-#[group(required = true, multiple = false)]
-struct Subject {
-    /// A preset; `blysk presets` lists them.
-    #[arg(long, value_name = "NAME")]
-    preset: Option<String>,
-    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
-    /// Every preset, one line each.
-    #[arg(long)]
-    all_presets: bool,
 }
 
 /// The x that a verdict is about.
@@ -106,22 +91,19 @@ pub(super) fn bound(text: &str) -> Result<f64, String> {
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
-    if args.subject.all_presets {
-        return every_preset(args, out);
+    match args.subject.designs()?.as_slice() {
+        [(design, _)] if !args.subject.all_presets => one(args, design, out),
+        designs => several(args, designs, out),
     }
-    let (config, origin) = match (&args.subject.preset, &args.subject.config) {
-        (Some(name), _) => (find_preset(name)?.config()?, format!("preset {name}")),
-        (None, Some(path)) => (load_config(path)?, path.display().to_string()),
-        (None, None) => bail!("say --preset NAME, --config FILE or --all-presets"),
-    };
-    let design = Design::new(config).with_context(|| origin)?;
-    let inputs: Vec<PathBuf> = args.subject.config.iter().cloned().collect();
-    let begin = |out| output::set(out, "report", &inputs, files::names());
+}
+
+fn one(args: &Args, design: &Design, out: &mut Out) -> anyhow::Result<Outcome> {
+    let begin = |out| output::set(out, "report", &args.subject.files(), files::names());
     let mut set = args.out.as_deref().map(begin).transpose()?;
-    let report = measure(args, &design, set.as_mut())?;
+    let report = measure(args, design, set.as_mut())?;
     commit(set)?;
     match args.format {
-        Format::Table => summary(&design, &report, out)?,
+        Format::Table => summary(design, &report, out)?,
         format => all_rows(std::slice::from_ref(&report), false).print(out, format, 17)?,
     }
     if let (Some(directory), Format::Table) = (&args.out, args.format) {
@@ -257,17 +239,17 @@ fn greatest(report: &ErrorReport, of: fn(&ErrorRow) -> f64) -> Option<&ErrorRow>
 }
 
 /// Every preset: files for each, and one table.
-fn every_preset(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
-    let names =
-        presets::ALL.into_iter().flat_map(|preset| files::names().map(move |name| format!("{}/{name}", preset.name)));
+fn several(args: &Args, designs: &[(Design, String)], out: &mut Out) -> anyhow::Result<Outcome> {
+    let name = |design: &Design| design.config().name.clone();
+    let names = designs.iter().map(|(design, _)| name(design));
+    let names = names.flat_map(|directory| files::names().map(move |file| format!("{directory}/{file}")));
     let begin = |out| output::set(out, "report", &[], names);
     let mut set = args.out.as_deref().map(begin).transpose()?;
     let mut reports = Vec::new();
-    for preset in presets::ALL {
-        let design = Design::new(preset.config()?).with_context(|| preset.name)?;
+    for (design, _) in designs {
         reports.push(match &mut set {
-            Some(set) => set.within(preset.name, |set| measure(args, &design, Some(set)))?,
-            None => measure(args, &design, None)?,
+            Some(set) => set.within(&name(design), |set| measure(args, design, Some(set)))?,
+            None => measure(args, design, None)?,
         });
     }
     commit(set)?;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
+use clap::{ArgGroup, Args as ClapArgs};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
@@ -16,7 +16,7 @@ use rayon::prelude::*;
 use vectors::text_file::{self, CERTIFICATE};
 
 use super::bar::Bar;
-use super::configuration::{find_preset, load_config};
+use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
 use super::report::bound;
@@ -70,7 +70,8 @@ pub(super) struct Args {
 }
 
 #[derive(ClapArgs)]
-#[group(required = true, multiple = true)]
+#[command(group(ArgGroup::new("what").args(["exponents", "all_real_n", "preset", "config", "check"])
+    .required(true).multiple(true)))]
 struct Subject {
     /// Methods at these exponents, such as 1..=256, 1,2,8,64 or 2.5,1e6.
     #[arg(long, allow_hyphen_values = true, value_name = "LIST",
@@ -79,26 +80,11 @@ struct Subject {
     /// Methods at every real n >= 1, the limit included, on the epicentre.
     #[arg(long, conflicts_with_all = ["preset", "config", "check"])]
     all_real_n: bool,
-    /// A preset, down to its bits; `blysk presets` lists them. With --check: what the certificate must be about.
-    #[arg(long, value_name = "NAME", conflicts_with = "config")]
-    preset: Option<String>,
-    /// A configuration as JSON; `blysk presets show NAME` prints one to start from.
-    #[arg(long, value_name = "FILE")]
-    config: Option<PathBuf>,
+    #[command(flatten)]
+    configuration: MaybeConfiguration,
     /// Check this certificate. What it is about is printed; say --preset or --config to demand a configuration.
     #[arg(long, value_name = "FILE")]
     check: Option<PathBuf>,
-}
-
-impl Subject {
-    /// The configuration, where one is given.
-    fn configuration(&self) -> anyhow::Result<Option<Config>> {
-        match (&self.preset, &self.config) {
-            (Some(name), _) => Ok(Some(find_preset(name)?.config()?)),
-            (None, Some(path)) => Ok(Some(load_config(path)?)),
-            (None, None) => Ok(None),
-        }
-    }
 }
 
 fn help_of_method() -> String {
@@ -122,15 +108,14 @@ impl FromStr for Methods {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if let Some(path) = &args.subject.check {
-        let asked = args.subject.configuration()?;
+        let asked = args.subject.configuration.config()?;
         return check_file(path, asked.as_ref(), args.bound, out);
     }
     if args.bound.is_some() && !args.has_epicentre() {
         bail!("--bound is about the epicentre, and rational is made for the tail; choose another method");
     }
     // Made before the work, so that an unwritable place is found at once.
-    let inputs: Vec<PathBuf> = args.subject.config.iter().cloned().collect();
-    let file = output::file(args.out.as_ref(), &inputs)?;
+    let file = output::file(args.out.as_ref(), &args.subject.configuration.files())?;
     let claim = claim(args)?;
     let certificate = Certificate::new(claim);
     let alone = output::fill(file, certificate.to_json())?;
@@ -157,13 +142,9 @@ impl Args {
 }
 
 fn claim(args: &Args) -> anyhow::Result<Claim> {
-    let Subject { exponents, all_real_n, preset, config, .. } = &args.subject;
-    if let Some(name) = preset {
-        return hardware(Design::new(find_preset(name)?.config()?).with_context(|| name.clone())?);
-    }
-    if let Some(path) = config {
-        let design = Design::new(load_config(path)?);
-        return hardware(design.with_context(|| path.display().to_string())?);
+    let Subject { exponents, all_real_n, configuration, .. } = &args.subject;
+    if let Some(design) = configuration.design()? {
+        return hardware(design);
     }
     let levels = Levels::new(args.q, args.g)?;
     if *all_real_n {
