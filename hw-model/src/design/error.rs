@@ -13,7 +13,7 @@ use crate::quantise::QuantiseError;
 #[non_exhaustive]
 pub enum DesignError {
     /// A preset that is none.
-    #[error("there is no preset {name:?}; there are {}", presets::ALL.map(|preset| preset.name).join(", "))]
+    #[error("there is no preset {name:?}; the presets are {}", presets::ALL.map(|preset| preset.name).join(", "))]
     NoPreset {
         /// The name.
         name: String,

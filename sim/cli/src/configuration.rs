@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use clap::{ArgGroup, Args};
 use hw_model::config::{Config, ConfigError};
-use hw_model::design::Design;
+use hw_model::design::{Design, DesignError};
 use hw_model::names;
 use hw_model::presets;
 use vectors::text_file::{self, CONFIGURATION, decimal_comma};
@@ -154,8 +154,5 @@ fn place<'a>(error: &ConfigError, text: &'a str) -> Option<&'a str> {
 
 /// The preset of this name.
 pub(super) fn find_preset(name: &str) -> anyhow::Result<presets::Preset> {
-    presets::find(name).with_context(|| {
-        let names: Vec<&str> = presets::ALL.iter().map(|preset| preset.name).collect();
-        format!("there is no preset {name:?}; the presets are {}", names.join(", "))
-    })
+    presets::find(name).ok_or_else(|| DesignError::NoPreset { name: name.to_owned() }.into())
 }
