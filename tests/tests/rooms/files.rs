@@ -54,6 +54,12 @@ fn paths_are_found_in_use_and_in_expressions() {
     assert_eq!(found, expected.map(|path| path.split("::").map(str::to_owned).collect::<Vec<_>>()));
 }
 
+#[test]
+fn a_child_is_known_by_its_whole_name() {
+    assert!(begins_path("use thiserror::Error; fn f() { error::g() }", "error"));
+    assert!(!begins_path("use thiserror::Error; use other::error::E;", "error"));
+}
+
 fn graph(sources: &Path) -> Graph {
     let mut files = BTreeMap::new();
     collect(sources, sources, &mut files);
@@ -62,7 +68,7 @@ fn graph(sources: &Path) -> Graph {
         let own = children(&text);
         let mut known: BTreeSet<Module> = paths(&text).iter().filter_map(|path| target(module, path, &files)).collect();
         // A child is known by its bare name.
-        known.extend(own.iter().filter(|name| text.contains(&format!("{name}::"))).map(|name| {
+        known.extend(own.iter().filter(|name| begins_path(&text, name)).map(|name| {
             let mut child = module.clone();
             child.push((*name).to_owned());
             child
@@ -71,6 +77,12 @@ fn graph(sources: &Path) -> Graph {
         (module.clone(), known)
     };
     files.iter().map(known).collect()
+}
+
+/// True where a path begins with this name, which is not the end of another one: `error` and not `thiserror`.
+fn begins_path(text: &str, name: &str) -> bool {
+    let is_end = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
+    text.match_indices(&format!("{name}::")).any(|(at, _)| !text[..at].ends_with(is_end))
 }
 
 /// Every module with a file, tests left out.
