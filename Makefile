@@ -85,7 +85,7 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	@scripts/synth.py --check --blysk $(TESTED)
 	@rm -rf $(RESULTS)/frozen
 	@$(FREEZE) --against tests/frozen/DIGESTS
-	$(TARGET)/release-checked/cosimulate
+	$(TARGET)/release-checked/cosimulate --covering
 
 digests: ## tests/frozen/DIGESTS written again, after a change of output that is meant
 	$(CARGO) build $(CHECKED) --locked --quiet --bin blysk-under-test

@@ -5,6 +5,9 @@
 //! targets are run in Icarus 11, 12 and 13 as they are typed; slang, Verible and Surelog read RTL and testbench. Yosys
 //! counts the parts of each netlist, and FuseSoC runs the core file. Ends with what was compared, and fails when
 //! anything differs or nothing was compared.
+//!
+//! With `--covering`, for `make test`: the presets that have every part of the RTL between them ([`COVERING`]), one
+//! example, one scene and all small configurations; every planted fault.
 
 use std::io::BufReader;
 use std::process::{ExitCode, Stdio};
@@ -29,6 +32,10 @@ const SCENE_CYCLES: u64 = 100_000;
 const ICARUS_CYCLES: u64 = 20_000;
 /// Vectors of each preset.
 const VECTORS: u64 = 4096;
+
+/// The presets that `--covering` simulates. Between them: both forms, the divider, one segment and two, stored shifts.
+/// The older Verilator reads the first of them alone.
+const COVERING: [&str; 3] = ["paper", "compact", "precise"];
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
@@ -109,8 +116,45 @@ impl std::ops::Add for Totals {
     }
 }
 
+/// What is simulated.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Extent {
+    Everything,
+    Covering,
+}
+
+impl Extent {
+    fn from_arguments() -> Result<Self, Failure> {
+        let arguments: Vec<String> = std::env::args().skip(1).collect();
+        match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+            [] => Ok(Self::Everything),
+            ["--covering"] => Ok(Self::Covering),
+            _ => failed(format!("cosimulate takes --covering or nothing, not {}", arguments.join(" "))),
+        }
+    }
+
+    fn has_preset(self, name: &str) -> bool {
+        self == Self::Everything || COVERING.contains(&name)
+    }
+
+    /// The simulators of a preset, scene or example.
+    fn simulators(self, name: &str, all: &[Simulator]) -> Vec<Simulator> {
+        if self == Self::Everything || name == COVERING[0] { all.to_vec() } else { without_older(all) }
+    }
+
+    /// Of a list of scenes or examples.
+    fn of<T>(self, list: &[T]) -> &[T] {
+        if self == Self::Everything { list } else { &list[..1] }
+    }
+}
+
+/// Icarus and the newer Verilator: the older one takes as long as both.
+fn without_older(simulators: &[Simulator]) -> Vec<Simulator> {
+    [&simulators[..1], &simulators[2..]].concat()
+}
+
 fn main() -> ExitCode {
-    match run() {
+    match Extent::from_arguments().and_then(run) {
         Ok(totals) if totals.vectors > 0 && totals.registers > 0 => {
             println!(
                 "0 mismatches: {} runs, {} vectors, {} cycles, {} registers and results compared",
@@ -129,7 +173,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run() -> Result<Totals, Failure> {
+fn run(extent: Extent) -> Result<Totals, Failure> {
     let simulators = simulators::all()?;
     let names: Vec<&str> = simulators.iter().map(|simulator| simulator.name.as_str()).collect();
     let releases = simulators::icarus_releases()?;
@@ -137,31 +181,34 @@ fn run() -> Result<Totals, Failure> {
     println!("{:<14} {:<18} {:>9} {:>10} {:>13}", "preset", "simulator", "vectors", "cycles", "compared");
     let presets = presets::ALL.par_iter().map(|preset| {
         let design = design(preset.json)?;
+        // Planted faults want the RTL of every preset.
         let emitted = emit(&design, preset.name, Strategy::Mixed, VECTORS)?;
+        if !extent.has_preset(preset.name) {
+            return Ok(Totals::default());
+        }
         if preset.name == "compact" {
             fusesoc::check(&emitted)?;
             fusesoc::check_dut(&design)?;
         }
+        let simulators = extent.simulators(preset.name, &simulators);
         let total = everything(&emitted, preset.name, &simulators, Some(VERILATOR_CYCLES))?;
         flows(&emitted, preset.name, &releases)?;
         Ok(total)
     });
-    let scenes = SCENES.par_iter().map(|scene| {
+    let scenes = extent.of(&SCENES).par_iter().map(|scene| {
         let design = specialised::of_paper(scene)?;
         let emitted = emit(&design, scene, Strategy::Mixed, VECTORS)?;
-        everything(&emitted, scene, &simulators, Some(SCENE_CYCLES))
+        everything(&emitted, scene, &extent.simulators(scene, &simulators), Some(SCENE_CYCLES))
     });
-    let examples = EXAMPLES.par_iter().map(|&(name, json)| {
+    let examples = extent.of(&EXAMPLES).par_iter().map(|&(name, json)| {
         let design = design(json)?;
         let emitted = emit(&design, name, Strategy::Mixed, VECTORS)?;
-        everything(&emitted, name, &simulators, Some(SCENE_CYCLES))
+        everything(&emitted, name, &extent.simulators(name, &simulators), Some(SCENE_CYCLES))
     });
     let small = SMALL.par_iter().map(|&(name, strategy, json)| {
         let design = design(json)?;
         let emitted = emit(&design, name, strategy, 0)?;
-        // The older Verilator takes as long as all else, and reads the presets, scenes and examples.
-        let simulators = [&simulators[..1], &simulators[2..]].concat();
-        everything(&emitted, name, &simulators, None)
+        everything(&emitted, name, &without_older(&simulators), None)
     });
     let total: Totals = presets
         .chain(scenes)
