@@ -165,10 +165,11 @@ ALL = [
 ]
 
 
-
-
 def constants(package):
-    found = {name: int(value) for name, value in re.findall(r"localparam int (\w+) = (-?\d+);", package)}
+    """The integers of a package; one that is given as another has that one's value, as the rounding modes of lines."""
+    found = {}
+    for name, value in re.findall(r"localparam int (\w+) = (-?\w+);", package):
+        found[name] = found[value] if value in found else int(value)
     degrees = {f"DEGREE_{degree}": int(found["HAS_POLYNOMIAL"] and found["DEGREE"] == degree) for degree in range(1, 5)}
     several = {"SEVERAL_SEGMENTS": found["SEGMENTS"] - 1, "SEVERAL_STAGES": found["DEGREE"] - 1}
     return {"SHIFT_STORED": 0} | found | several | degrees
@@ -275,6 +276,9 @@ class Job:
         instead = {"ADDRESS_WIDTH": self.word} if self.prop.carries_word else {}
         if self.prop.bits:
             instead |= self.narrow(constants(text), self.prop.bits)
+            # The front end clamps x by its own width: there it stays as wide as it is.
+            if self.prop.top == "blysk":
+                del instead["X_WIDTH"]
             text = with_vectors(text, instead)
         for name, value in instead.items():
             text = re.sub(rf"(int {name}) = -?\d+;", rf"\1 = {value};", text)
