@@ -126,7 +126,8 @@ impl Recordings {
 fn wave_format(path: &Path) -> anyhow::Result<WaveFormat> {
     let asked = path.extension().unwrap_or_default();
     let found = WaveFormat::ALL.into_iter().find(|format| asked == format.extension());
-    found.with_context(|| format!("--waves {}: give the file a name that ends in .vcd or .fst", path.display()))
+    let endings = WaveFormat::ALL.map(|format| format!(".{}", format.extension())).join(" or ");
+    found.with_context(|| format!("--waves {}: give the file a name that ends in {endings}", path.display()))
 }
 
 /// A file whose errors say which file it is.
