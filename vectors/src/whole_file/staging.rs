@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use super::commit::Journal;
 use super::error::OutputError;
 use super::target::{Identity, Stream, Target, find, no_link, place, regular};
-use super::temporary::{Temporary, committing, parent};
+use super::temporary::{Temporary, committing, no_signal_meanwhile, parent};
 
 /// Large enough that a write is rarely a system call.
 const BUFFER_BYTES: usize = 1 << 16;
@@ -176,7 +176,8 @@ impl Staging {
                 (file, Place::Beside { temporary, real })
             }
             Some(inside) => {
-                let file = File::create_new(inside.join(real.file_name().unwrap_or_default()));
+                let path = inside.join(real.file_name().unwrap_or_default());
+                let file = no_signal_meanwhile(|| File::create_new(path));
                 (file.map_err(write)?, Place::Inside)
             }
         };
@@ -220,7 +221,7 @@ impl Staging {
             }
         };
         let inside = self.directories[index].temporary.path().join(rest);
-        fs::create_dir_all(&inside).map_err(|error| refused(error.kind()))?;
+        no_signal_meanwhile(|| fs::create_dir_all(&inside)).map_err(|error| refused(error.kind()))?;
         Ok(Some(inside))
     }
 

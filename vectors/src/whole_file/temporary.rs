@@ -39,6 +39,13 @@ pub fn remove_temporaries() {
     std::mem::forget((committing, alive));
 }
 
+/// Makes something inside a temporary directory: a signal waits until it is there. Otherwise the handler could have
+/// listed the directory before, and would find it not empty when it comes to remove it.
+pub(super) fn no_signal_meanwhile<T>(make: impl FnOnce() -> T) -> T {
+    let _alive = lock(&ALIVE);
+    make()
+}
+
 /// Nothing can be done about what cannot be removed.
 fn remove(path: &Path) {
     let _ = match fs::symlink_metadata(path) {
