@@ -53,13 +53,18 @@ fn a_block_gives_what_the_ranks_give() {
         let design = Design::new(preset.config().unwrap()).unwrap();
         let datapath = design.datapath();
         let one = design.config().input.one();
-        let xs: Vec<i64> = (0..=1500).map(|i| one * i / 1400).collect();
+        let xs: Vec<i64> = (-100..=1500).map(|i| one * i / 1400).collect();
         let mut block = Block::default();
+        let (mut intensities, mut status) = (vec![-1; xs.len()], vec![0xff; xs.len()]);
         for address in [0, 1, 2, 63, 255, 256, 300] {
             datapath.evaluate_block(address, &xs, &mut block);
-            for (&x, (&bits, &region)) in xs.iter().zip(block.intensities.iter().zip(&block.regions)) {
+            datapath.answer_block(address, &xs, &mut intensities, &mut status);
+            assert_eq!(block.intensities, intensities, "{} {address}", preset.name);
+            for ((&x, (&bits, &region)), &status) in
+                xs.iter().zip(block.intensities.iter().zip(&block.regions)).zip(&status)
+            {
                 let last = datapath.evaluate(address, x);
-                assert_eq!((last.intensity, last.region), (bits, region), "{address} {x}");
+                assert_eq!((last.intensity, last.region, last.status.bits()), (bits, region, status), "{address} {x}");
             }
         }
     }

@@ -9,7 +9,7 @@ use crate::registers::Register;
 use crate::rom::Row;
 use crate::rounding::{Lane, Rounding};
 
-use super::compose::{Anything, Cubics, Known, Lines, RoundedCubics};
+use super::compose::{Anything, Composed, Cubics, Known, Lines, RoundedCubics};
 use super::front_end::Region;
 use super::keep::{Damage, Keep, Registers};
 use super::parts::Datapath;
@@ -33,6 +33,36 @@ impl Block {
         self.intensities.resize(len, 0);
         self.regions.resize(len, Region::Zero);
     }
+
+    fn samples(&mut self) -> Samples<'_, Region> {
+        Samples { intensities: &mut self.intensities, beside: &mut self.regions }
+    }
+}
+
+/// Where the answers of a block go: slices as long as that of the x.
+struct Samples<'a, B> {
+    intensities: &'a mut [i64],
+    beside: &'a mut [B],
+}
+
+/// What is told of a sample beside its intensity.
+trait Beside: Copy {
+    fn of<L: Copy>(composed: &Composed<L>) -> Self;
+}
+
+impl Beside for Region {
+    #[inline(always)]
+    fn of<L: Copy>(composed: &Composed<L>) -> Self {
+        composed.entered.region
+    }
+}
+
+/// The status port.
+impl Beside for u8 {
+    #[inline(always)]
+    fn of<L: Copy>(composed: &Composed<L>) -> Self {
+        composed.status.bits()
+    }
 }
 
 impl Datapath {
@@ -44,9 +74,32 @@ impl Datapath {
             return;
         };
         if self.narrow {
-            narrow_block(self, row, xs, block);
+            narrow_block(self, row, xs, block.samples());
         } else {
-            Lines::of(self).evaluate::<i128, _>(row, xs, block, &Registers::WHOLE);
+            Lines::of(self).evaluate::<i128, _, _>(row, xs, block.samples(), &Registers::WHOLE);
+        }
+    }
+
+    /// Evaluates every x at one address: the intensity port and the status port of each, into slices of the same
+    /// length as `xs` (what is longer is left as it is). An address without a word gives intensity 0 and the flag.
+    pub fn answer_block(&self, address: u32, xs: &[i64], intensities: &mut [i64], status: &mut [u8]) {
+        let Some(row) = self.rom.row(address) else {
+            return self.answer_without_word(address, xs, intensities, status);
+        };
+        let samples = Samples { intensities, beside: status };
+        if self.narrow {
+            narrow_answers(self, row, xs, samples);
+        } else {
+            Lines::of(self).evaluate::<i128, _, _>(row, xs, samples, &Registers::WHOLE);
+        }
+    }
+
+    /// The same where the address has no word: rare, so one request after the other.
+    fn answer_without_word(&self, address: u32, xs: &[i64], intensities: &mut [i64], status: &mut [u8]) {
+        let (logic, mut flight) = (self.logic(), self.flight());
+        for ((&x, intensity), status) in xs.iter().zip(intensities).zip(status) {
+            logic.enter(self, address, x, &mut flight);
+            (*intensity, *status) = (flight.intensity(), flight.status().bits());
         }
     }
 
@@ -56,10 +109,10 @@ impl Datapath {
     pub fn evaluate_row(&self, row: &Row, damage: Option<&Damage>, xs: &[i64], block: &mut Block) {
         block.clear(xs.len());
         if self.narrow {
-            narrow_row(self, row, damage, xs, block);
+            narrow_row(self, row, damage, xs, block.samples());
         } else {
             let registers = Registers::trimmed(self, damage);
-            Lines::of(self).evaluate::<i128, _>(row, xs, block, &registers);
+            Lines::of(self).evaluate::<i128, _, _>(row, xs, block.samples(), &registers);
         }
     }
 }
@@ -67,41 +120,52 @@ impl Datapath {
 /// The block in the narrow lane, compiled once for each vector width named here; the first that the
 /// machine has is chosen at run time. Integers give the same bits in all of them.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], block: &mut Block) {
-    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &Registers::WHOLE);
+fn narrow_block(datapath: &Datapath, row: &Row, xs: &[i64], samples: Samples<Region>) {
+    Lines::of(datapath).evaluate::<i64, _, _>(row, xs, samples, &Registers::WHOLE);
+}
+
+/// The same with the status beside each intensity.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn narrow_answers(datapath: &Datapath, row: &Row, xs: &[i64], samples: Samples<u8>) {
+    Lines::of(datapath).evaluate::<i64, _, _>(row, xs, samples, &Registers::WHOLE);
 }
 
 /// The same with trimmed registers.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn narrow_row(datapath: &Datapath, row: &Row, damage: Option<&Damage>, xs: &[i64], block: &mut Block) {
+fn narrow_row(datapath: &Datapath, row: &Row, damage: Option<&Damage>, xs: &[i64], samples: Samples<Region>) {
     let registers = Registers::trimmed(datapath, damage);
-    Lines::of(datapath).evaluate::<i64, _>(row, xs, block, &registers);
+    Lines::of(datapath).evaluate::<i64, _, _>(row, xs, samples, &registers);
 }
 
 impl Lines {
     /// Chooses what is known of the lines.
     #[inline(always)]
-    fn evaluate<L: Lane, R: Keep<L>>(self, row: &Row, xs: &[i64], block: &mut Block, keep: &Registers<R>) {
+    fn evaluate<L: Lane, R: Keep<L>, B: Beside>(self, row: &Row, xs: &[i64], to: Samples<B>, keep: &Registers<R>) {
         match (self.are_cubics(), self.rounding()) {
-            (true, Some(Rounding::Floor)) => {
-                self.chunks::<L, RoundedCubics<false>, R>(row, xs, block, keep);
-            }
-            (true, Some(Rounding::NearestUp)) => {
-                self.chunks::<L, RoundedCubics<true>, R>(row, xs, block, keep);
-            }
-            (true, _) => self.chunks::<L, Cubics, R>(row, xs, block, keep),
-            (false, _) => self.chunks::<L, Anything, R>(row, xs, block, keep),
+            (true, Some(Rounding::Floor)) => self.chunks::<L, RoundedCubics<false>, R, B>(row, xs, to, keep),
+            (true, Some(Rounding::NearestUp)) => self.chunks::<L, RoundedCubics<true>, R, B>(row, xs, to, keep),
+            (true, _) => self.chunks::<L, Cubics, R, B>(row, xs, to, keep),
+            (false, _) => self.chunks::<L, Anything, R, B>(row, xs, to, keep),
         }
     }
 
     #[inline(always)]
-    fn chunks<L: Lane, K: Known, R: Keep<L>>(self, row: &Row, xs: &[i64], block: &mut Block, keep: &Registers<R>) {
+    fn chunks<L: Lane, K: Known, R: Keep<L>, B: Beside>(
+        self,
+        row: &Row,
+        xs: &[i64],
+        to: Samples<B>,
+        keep: &Registers<R>,
+    ) {
         let lines = K::lines(self);
-        let outputs = block.intensities.chunks_mut(LANES).zip(block.regions.chunks_mut(LANES));
-        for (xs, (intensities, regions)) in xs.chunks(LANES).zip(outputs) {
+        let outputs = to.intensities.chunks_mut(LANES).zip(to.beside.chunks_mut(LANES));
+        let mut regions = [Region::Zero; LANES];
+        for (xs, (intensities, beside)) in xs.chunks(LANES).zip(outputs) {
             let mut any_tail = false;
-            for ((&x, region), intensity) in xs.iter().zip(&mut *regions).zip(&mut *intensities) {
+            let places = intensities.iter_mut().zip(beside).zip(&mut regions);
+            for (&x, ((intensity, beside), region)) in xs.iter().zip(places) {
                 let composed = lines.compose::<L, K, R>(row, L::from_bits(x), keep);
+                *beside = B::of(&composed);
                 *region = composed.entered.region;
                 any_tail |= *region == Region::Tail;
                 *intensity = match *region {
@@ -110,7 +174,7 @@ impl Lines {
                 };
             }
             if any_tail {
-                lines.tails_of_row::<L, R>(row, xs, regions, intensities, keep);
+                lines.tails_of_row::<L, R>(row, xs, &regions, intensities, keep);
             }
         }
     }
