@@ -14,6 +14,8 @@
 //! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
 //!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
 
+use std::ops::Deref;
+
 use hw_model::datapath::{Datapath, Flight, Logic, Requests, Signals, Status};
 
 /// What drives the pipeline during one cycle.
@@ -167,14 +169,18 @@ const TOGETHER: usize = 8;
 /// quotient bits at most, so there are fewer than 128 ranks.
 const PLACES: usize = 256;
 
-/// The clocked pipeline of one configuration.
+/// The clocked pipeline of a data path that its caller keeps.
+pub type Pipeline<'a> = Clocked<&'a Datapath>;
+
+/// The clocked pipeline of one configuration, whose data path `D` refers to: by a reference ([`Pipeline`]), or by a
+/// shared pointer where the pipeline must live by itself, as in a library that other languages call.
 ///
 /// A cycle moves flags and counters only, and allocates nothing. Results are computed when the first of them comes to
 /// the output, side by side for all requests that have entered by then. What other registers hold is computed when
 /// a caller asks for it ([`Pipeline::ranks`]).
 #[derive(Debug, Clone)]
-pub struct Pipeline<'a> {
-    datapath: &'a Datapath,
+pub struct Clocked<D> {
+    datapath: D,
     logic: Logic,
     ranks: usize,
     /// Every rank's bit, and the last one's.
@@ -194,14 +200,13 @@ pub struct Pipeline<'a> {
     remains: Remains,
 }
 
-impl<'a> Pipeline<'a> {
+impl<D: Deref<Target = Datapath>> Clocked<D> {
     /// An empty pipeline, as after reset.
     #[must_use]
-    pub fn new(datapath: &'a Datapath) -> Self {
+    pub fn new(datapath: D) -> Self {
         let ranks = datapath.rank_count();
         debug_assert!(ranks < 128);
         Self {
-            datapath,
             logic: datapath.logic(),
             ranks,
             all: (1 << ranks) - 1,
@@ -214,13 +219,14 @@ impl<'a> Pipeline<'a> {
             flights: vec![datapath.flight(); (ranks + 1).next_power_of_two()],
             looked_at: 0,
             remains: Remains { loaded: 0, flights: vec![datapath.flight(); ranks] },
+            datapath,
         }
     }
 
     /// The data path that is clocked.
     #[must_use]
-    pub const fn datapath(&self) -> &'a Datapath {
-        self.datapath
+    pub fn datapath(&self) -> &Datapath {
+        &self.datapath
     }
 
     /// The registers as they are before the next edge.
@@ -230,7 +236,7 @@ impl<'a> Pipeline<'a> {
         for number in self.looked_at.max(self.entered.saturating_sub(places))..self.entered {
             let (address, x) = self.request(number);
             let place = number as usize & (self.flights.len() - 1);
-            self.logic.enter(self.datapath, address, x, &mut self.flights[place]);
+            self.logic.enter(&self.datapath, address, x, &mut self.flights[place]);
         }
         self.looked_at = self.entered;
         let Self { datapath, ranks, places_q: places, flights, remains, .. } = self;
@@ -325,7 +331,7 @@ impl<'a> Pipeline<'a> {
     #[inline(never)]
     fn answer(&mut self) {
         let first = place(self.answered);
-        let end = self.logic.evaluate(self.datapath, &mut self.requests, first);
+        let end = self.logic.evaluate(&self.datapath, &mut self.requests, first);
         self.answered = self.entered.min(self.answered + (end - first) as u64);
     }
 
@@ -357,7 +363,7 @@ impl<'a> Pipeline<'a> {
             if let Some(number) = self.places_q.shown(rank) {
                 let (address, x) = self.request(number);
                 let flight = &mut self.remains.flights[rank];
-                self.logic.enter(self.datapath, address, x, flight);
+                self.logic.enter(&self.datapath, address, x, flight);
                 self.remains.loaded |= 1 << rank;
             }
         }

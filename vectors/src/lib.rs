@@ -30,6 +30,7 @@ pub mod answers;
 pub mod bundle;
 pub mod case;
 pub mod checksum;
+pub mod configuration_file;
 pub mod decimal;
 pub mod evaluate;
 pub mod fault_table;

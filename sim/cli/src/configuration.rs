@@ -1,14 +1,14 @@
 //! `--preset NAME`, `--config FILE` and `--all-presets`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, anyhow};
+use anyhow::Context;
 use clap::{ArgGroup, Args};
-use hw_model::config::{Config, ConfigError};
+use hw_model::config::Config;
 use hw_model::design::{Design, DesignError};
 use hw_model::names;
 use hw_model::presets;
-use vectors::text_file::{self, CONFIGURATION, decimal_comma};
+use vectors::configuration_file;
 
 /// The options that choose a configuration, for a command that may do without one.
 #[derive(Clone, Args)]
@@ -70,7 +70,7 @@ impl MaybeConfiguration {
     fn load(&self) -> anyhow::Result<Option<(Config, String)>> {
         match (&self.preset, &self.config) {
             (Some(name), _) => Ok(Some((find_preset(name)?.config()?, format!("preset {name}")))),
-            (None, Some(path)) => Ok(Some((load_config(path)?, path.display().to_string()))),
+            (None, Some(path)) => Ok(Some((configuration_file::read(path)?, path.display().to_string()))),
             (None, None) => Ok(None),
         }
     }
@@ -122,34 +122,6 @@ impl Configurations {
 
 fn preset_option(name: &str) -> String {
     format!("--preset {}", names::shell(name))
-}
-
-/// The configuration in a file.
-pub(super) fn load_config(path: &Path) -> anyhow::Result<Config> {
-    let shown = path.display();
-    let text = text_file::read(path, CONFIGURATION)?;
-    Config::from_json(&text).map_err(|error| {
-        let place = place(&error, &text).map_or_else(String::new, |text| format!(", at `{text}`"));
-        let hint = match &error {
-            ConfigError::Json(error) => decimal_comma(&text, error),
-            _ => None,
-        };
-        match hint {
-            Some(hint) => anyhow!("{shown}{place}: {error}{hint}"),
-            None => anyhow::Error::from(error).context(format!("{shown}{place}")),
-        }
-    })
-}
-
-/// The text before an error of the JSON, on its line: a value that is refused does not know the name of
-/// its field.
-fn place<'a>(error: &ConfigError, text: &'a str) -> Option<&'a str> {
-    const MOST: usize = 60;
-    let ConfigError::Json(error) = error else { return None };
-    let line = text.lines().nth(error.line().checked_sub(1)?)?;
-    let before = line.get(..error.column()).unwrap_or(line).trim();
-    let (start, _) = before.char_indices().rev().take(MOST).last()?;
-    Some(&before[start..])
 }
 
 /// The preset of this name.

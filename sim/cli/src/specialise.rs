@@ -8,13 +8,14 @@ use clap::Args as ClapArgs;
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::names;
+use vectors::configuration_file;
 use vectors::rtl::Modules;
 use vectors::text_file;
 use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
 
 use super::bar::Bar;
-use super::configuration::{MaybeConfiguration, load_config};
+use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
 use super::scene::{Loaded, load};
@@ -363,6 +364,6 @@ fn accepted(path: &Path, held: Held) -> anyhow::Result<Vec<String>> {
 fn check_beside(certificate: &Path, specialised: &Config) -> anyhow::Result<()> {
     let path = certificate.with_file_name(CONFIGURATION);
     let other = || format!("{} is not the certificate's configuration", path.display());
-    anyhow::ensure!(load_config(&path)? == *specialised, other());
+    anyhow::ensure!(configuration_file::read(&path)? == *specialised, other());
     Ok(())
 }

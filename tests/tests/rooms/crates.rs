@@ -8,10 +8,11 @@ use serde::Deserialize;
 
 /// Each crate of the product, and the crates of the workspace that it may know. A room that is not here has no place
 /// yet.
-const ARROWS: [(&str, &[&str]); 9] = [
+const ARROWS: [(&str, &[&str]); 10] = [
     ("hw-model", &[]),
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),
+    ("model", &["hw-model", "vectors", "sim"]),
     // Of vectors: the limits of work, progress, and the digests of seals.
     ("bounds", &["hw-model", "vectors"]),
     ("plot", &[]),

@@ -1,0 +1,61 @@
+//! A configuration as somebody wrote it: a file, or a text; and what is said of one that is refused.
+
+use std::path::Path;
+
+use hw_model::config::{Config, ConfigError};
+use thiserror::Error;
+
+use crate::text_file::{self, CONFIGURATION, TextError, decimal_comma};
+
+/// Why a text is no configuration.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ConfigurationError {
+    /// The file cannot be read, or is no text.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The text is refused.
+    #[error("{origin}: {error}{hint}")]
+    Refused {
+        /// Where the text comes from, and where in it the error stands.
+        origin: String,
+        /// What is wrong, and what would be right.
+        error: ConfigError,
+        /// What the writer may have meant.
+        hint: String,
+    },
+}
+
+/// The configuration in a file.
+///
+/// # Errors
+/// When the file cannot be read, or holds no configuration.
+pub fn read(path: &Path) -> Result<Config, ConfigurationError> {
+    parse(&text_file::read(path, CONFIGURATION)?, &path.display().to_string())
+}
+
+/// The configuration in a text; `name` says in messages where the text comes from.
+///
+/// # Errors
+/// When the text is no configuration.
+pub fn parse(text: &str, name: &str) -> Result<Config, ConfigurationError> {
+    Config::from_json(text).map_err(|error| {
+        let place = place(&error, text).map_or_else(String::new, |text| format!(", at `{text}`"));
+        let hint = match &error {
+            ConfigError::Json(error) => decimal_comma(text, error).unwrap_or_default(),
+            _ => String::new(),
+        };
+        ConfigurationError::Refused { origin: format!("{name}{place}"), error, hint }
+    })
+}
+
+/// The text before an error of the JSON, on its line: a value that is refused does not know the name of
+/// its field.
+fn place<'a>(error: &ConfigError, text: &'a str) -> Option<&'a str> {
+    const MOST: usize = 60;
+    let ConfigError::Json(error) = error else { return None };
+    let line = text.lines().nth(error.line().checked_sub(1)?)?;
+    let before = line.get(..error.column()).unwrap_or(line).trim();
+    let (start, _) = before.char_indices().rev().take(MOST).last()?;
+    Some(&before[start..])
+}
