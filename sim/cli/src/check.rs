@@ -6,13 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
-use hw_model::datapath::Status;
 use hw_model::design::Design;
-use hw_model::quantise::decimal;
-use vectors::answers::{Failure, Field, Got};
-use vectors::table::hex;
 use vectors::text_file::{self, REGISTER_LOG, TextReader};
-use vectors::{Verdict, check, verify};
+use vectors::{check, verify};
 
 use super::bar::Bar;
 use super::out::{Out, Outcome};
@@ -78,72 +74,6 @@ fn check_registers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<
 
 fn check_answers(vectors: &Path, log: &Path, out: &mut Out) -> anyhow::Result<Outcome> {
     let verdict = check(vectors, log)?;
-    let Some(failure) = &verdict.first else {
-        writeln!(out, "PASS {} vectors", verdict.vectors)?;
-        return Ok(Outcome::Good);
-    };
-    print_failure(failure, &verdict, out)?;
-    print_summary(&verdict, out)?;
-    Ok(Outcome::Fails)
-}
-
-/// The first vector that fails: what it is, its ports, and where it departs.
-fn print_failure(failure: &Failure, verdict: &Verdict, out: &mut Out) -> io::Result<()> {
-    let vector = &failure.vector;
-    let n = vector.case.exponent.map_or_else(|| "none".to_owned(), |n| n.to_string());
-    let (address, x) = (vector.case.address, vector.case.x);
-    let x = format!("{} ({})", hex(x, verdict.input), decimal(x, verdict.input));
-    write!(out, "FAIL vector {}: n = {n} (address {address}), x = {x}", vector.index)?;
-    let Some(line) = failure.line else {
-        return writeln!(out, ": no answer");
-    };
-    writeln!(out, ", line {line} of the log")?;
-    for port in failure.fields.iter().filter(|field| !field.is_register()) {
-        match port.name.as_str() {
-            "status" if port.differs() => writeln!(out, "  {}", told(port, flags))?,
-            "status" => {}
-            _ => writeln!(out, "  {}", told(port, |bits| decimal(bits, port.format)))?,
-        }
-    }
-    let departs = |field: &&Field| field.is_register() && field.differs();
-    if let Some(first) = failure.fields.iter().find(departs) {
-        let told = told(first, |bits| decimal(bits, first.format));
-        writeln!(out, "  departs first at {told}")?;
-    }
-    Ok(())
-}
-
-/// What a port or register holds and should hold, as bits and as `shown`.
-fn told(field: &Field, shown: impl Fn(i64) -> String) -> String {
-    let known = |bits| format!("{} ({})", hex(bits, field.format), shown(bits));
-    let got = match &field.got {
-        Got::Known(bits) => known(*bits),
-        Got::Unknown(text) => format!("{text} (unknown bits)"),
-    };
-    if field.differs() {
-        format!("{}: got {got}, expected {}", field.name, known(field.expected))
-    } else {
-        format!("{}: got {got}, as expected", field.name)
-    }
-}
-
-/// The flags by name, as in `vectors.csv`.
-fn flags(bits: i64) -> String {
-    let with = |status: Status, (flag, _): (Status, &str)| status.with(flag, bits & i64::from(flag.bits()) != 0);
-    Status::NAMES.into_iter().fold(Status::default(), with).to_string()
-}
-
-/// How many vectors fail, by where they depart.
-fn print_summary(verdict: &Verdict, out: &mut Out) -> io::Result<()> {
-    writeln!(out, "{} of {} vectors fail", verdict.failing(), verdict.vectors)?;
-    for (rank, count) in &verdict.departures {
-        writeln!(out, "  {count} depart first at {rank}")?;
-    }
-    if verdict.unanswered > 0 {
-        writeln!(out, "  {} have no answer", verdict.unanswered)?;
-    }
-    if verdict.registers == 0 && !verdict.departures.is_empty() {
-        writeln!(out, "Columns of registers in the log, such as front_end.region, would tell where.")?;
-    }
-    Ok(())
+    writeln!(out, "{verdict}")?;
+    Ok(if verdict.holds() { Outcome::Good } else { Outcome::Fails })
 }

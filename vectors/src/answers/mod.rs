@@ -15,6 +15,7 @@
 mod column;
 mod error;
 mod log;
+mod told;
 mod verdict;
 
 use std::path::Path;
