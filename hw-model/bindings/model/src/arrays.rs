@@ -1,8 +1,9 @@
 //! Many requests in one call: an address for all of them, or one for each.
 //!
-//! They go through the data path in blocks, side by side, with their status flags: the engine is [`Logic::evaluate`],
-//! which sees for itself where a block has one address.
+//! Those of one address go through the block engine, [`Datapath::answer_block`]; those of any address side by side
+//! through [`Logic::evaluate`]. What is refused is found on the way, chunk by chunk.
 //!
+//! [`Datapath::answer_block`]: hw_model::datapath::Datapath::answer_block
 //! [`Logic::evaluate`]: hw_model::datapath::Logic::evaluate
 
 use hw_model::datapath::{Requests, Status};
@@ -10,8 +11,11 @@ use hw_model::datapath::{Requests, Status};
 use crate::error::Error;
 use crate::handle::Model;
 
-/// Requests that are evaluated side by side.
+/// Requests of any address that are evaluated side by side.
 const BLOCK: usize = 128;
+
+/// x of one address that are converted together: few enough to stay in the nearest cache.
+const CHUNK: usize = 1024;
 
 /// Where requests find their ROM words.
 #[derive(Debug, Clone, Copy)]
@@ -22,24 +26,12 @@ pub enum Addresses<'a, A = u32> {
     Each(&'a [A]),
 }
 
-impl<A: Copy> Addresses<'_, A> {
-    fn get(&self, index: usize) -> A {
-        match self {
-            Self::One(address) => *address,
-            Self::Each(addresses) => addresses[index],
-        }
-    }
-
-    fn check(&self, what: &'static str, wanted: usize) -> Result<(), Error> {
-        match self {
-            Self::Each(addresses) => length(what, addresses.len(), wanted),
-            Self::One(_) => Ok(()),
-        }
-    }
-}
-
 fn length(what: &'static str, got: usize, wanted: usize) -> Result<(), Error> {
     if got == wanted { Ok(()) } else { Err(Error::Length { what, got, wanted }) }
+}
+
+fn address<A: TryInto<u32>>(address: A) -> Result<u32, Error> {
+    address.try_into().map_err(|_| Error::Address)
 }
 
 impl Model {
@@ -59,20 +51,53 @@ impl Model {
         A: Copy + TryInto<u32>,
         X: Copy + TryInto<i64>,
     {
-        addresses.check("address", xs.len())?;
         length("intensity", intensities.len(), xs.len())?;
         length("status", status.len(), xs.len())?;
-        let (least, greatest) = self.ends();
-        let fill = |index: usize| {
-            let address = addresses.get(index).try_into().map_err(|_| Error::Address)?;
-            // What no i64 holds, no format holds.
-            let x = xs[index].try_into().unwrap_or(i64::MAX);
-            if (least..=greatest).contains(&x) { Ok((address, x)) } else { self.held(x).map(|x| (address, x)) }
-        };
-        self.answer(xs.len(), fill, |index, intensity, flags| {
-            intensities[index] = intensity;
-            status[index] = flags.bits();
-        })
+        match addresses {
+            Addresses::One(one) => self.evaluate_at(address(one)?, xs, intensities, status),
+            Addresses::Each(addresses) => {
+                length("address", addresses.len(), xs.len())?;
+                let fill = |index: usize| Ok((address(addresses[index])?, self.held(bits(xs[index]))?));
+                self.answer(xs.len(), fill, |index, intensity, flags| {
+                    intensities[index] = intensity;
+                    status[index] = flags.bits();
+                })
+            }
+        }
+    }
+
+    fn evaluate_at<X: Copy + TryInto<i64>>(
+        &self,
+        address: u32,
+        xs: &[X],
+        intensities: &mut [i64],
+        status: &mut [u8],
+    ) -> Result<(), Error> {
+        let mut converted = [0; CHUNK];
+        let places = intensities.chunks_mut(CHUNK).zip(status.chunks_mut(CHUNK));
+        for (chunk, (given, (intensities, status))) in xs.chunks(CHUNK).zip(places).enumerate() {
+            let converted = &mut converted[..given.len()];
+            self.convert(given, converted).map_err(|(place, error)| error.at(chunk * CHUNK + place))?;
+            self.datapath().answer_block(address, converted, intensities, status);
+        }
+        Ok(())
+    }
+
+    /// The bits of x as the data path takes them; or the first that is refused, with its place.
+    fn convert<X: Copy + TryInto<i64>>(&self, given: &[X], to: &mut [i64]) -> Result<(), (usize, Error)> {
+        let input = self.datapath().formats().input;
+        let (least, greatest) = (input.min_bits(), input.max_bits());
+        // No choice in the loop, so that it becomes vector instructions.
+        let mut refused = false;
+        for (to, &x) in to.iter_mut().zip(given) {
+            *to = bits(x);
+            refused |= (*to < least) | (*to > greatest);
+        }
+        if !refused {
+            return Ok(());
+        }
+        let first = to.iter().enumerate().find_map(|(place, &x)| self.held(x).err().map(|error| (place, error)));
+        first.map_or(Ok(()), Err)
     }
 
     /// [`highlight`](Self::highlight) of many x, with one exponent for all or one for each.
@@ -80,23 +105,33 @@ impl Model {
     /// # Errors
     /// As there, with the first sample that is refused; when lengths differ.
     pub fn highlight_all(&self, exponents: Addresses<'_, f64>, xs: &[f64], values: &mut [f64]) -> Result<(), Error> {
-        exponents.check("n", xs.len())?;
         length("intensity", values.len(), xs.len())?;
-        let first = if let Addresses::One(n) = exponents { Some(self.address(n)?) } else { None };
-        let fill = |index: usize| {
-            let address = first.map_or_else(|| self.address(exponents.get(index)), Ok)?;
-            Ok((address, self.x_bits(xs[index])?))
-        };
-        self.answer(xs.len(), fill, |index, intensity, _| values[index] = self.intensity(intensity))
+        match exponents {
+            Addresses::One(n) => self.highlight_at(self.address(n)?, xs, values),
+            Addresses::Each(exponents) => {
+                length("n", exponents.len(), xs.len())?;
+                let fill = |index: usize| Ok((self.address(exponents[index])?, self.x_bits(xs[index])?));
+                self.answer(xs.len(), fill, |index, intensity, _| values[index] = self.intensity(intensity))
+            }
+        }
     }
 
-    fn ends(&self) -> (i64, i64) {
-        let input = self.datapath().formats().input;
-        (input.min_bits(), input.max_bits())
+    fn highlight_at(&self, address: u32, xs: &[f64], values: &mut [f64]) -> Result<(), Error> {
+        let (mut converted, mut intensities, mut status) = ([0; CHUNK], [0; CHUNK], [0; CHUNK]);
+        for (chunk, (xs, values)) in xs.chunks(CHUNK).zip(values.chunks_mut(CHUNK)).enumerate() {
+            let converted = &mut converted[..xs.len()];
+            for (place, (to, &x)) in converted.iter_mut().zip(xs).enumerate() {
+                *to = self.x_bits(x).map_err(|error| error.at(chunk * CHUNK + place))?;
+            }
+            self.datapath().answer_block(address, converted, &mut intensities, &mut status);
+            for (value, &intensity) in values.iter_mut().zip(&intensities) {
+                *value = self.intensity(intensity);
+            }
+        }
+        Ok(())
     }
 
     /// Evaluates `count` requests, block by block: `fill` gives each, and `take` is told each result.
-    #[inline(always)]
     fn answer(
         &self,
         count: usize,
@@ -111,10 +146,7 @@ impl Model {
                 let (address, x) = fill(index).map_err(|error| error.at(index))?;
                 (requests.addresses[place], requests.xs[place]) = (address, x);
             }
-            // Behind the last request stands what an earlier block left there; it is answered and not looked at. A
-            // block that could have one address has one.
-            let last = requests.addresses[length - 1];
-            requests.addresses[length..].fill(last);
+            // What an earlier block left behind the last request is answered and not looked at.
             self.logic().evaluate(self.datapath(), &mut requests, 0);
             for place in 0..length {
                 take(start + place, requests.intensities()[place], requests.status(place));
@@ -122,4 +154,10 @@ impl Model {
         }
         Ok(())
     }
+}
+
+/// What no i64 holds, no format holds either.
+#[inline]
+fn bits<X: TryInto<i64>>(x: X) -> i64 {
+    x.try_into().unwrap_or(i64::MAX)
 }

@@ -91,7 +91,8 @@ impl Error {
     }
 
     /// The same error, of one of several values.
-    pub(crate) fn at(self, index: usize) -> Self {
+    #[must_use]
+    pub fn at(self, index: usize) -> Self {
         Self::Sample { index, error: Box::new(self) }
     }
 }
