@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all digests docs pictures setup setup-all test peers rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
+.PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
 	alterations clean help
 
 CARGO ?= cargo
@@ -100,6 +100,9 @@ peers: ## certified bounds and refined integers beside Sollya's, where that is i
 	$(CARGO) build --release --locked --quiet --bin blysk
 	@tests/peers/supnorm.py --blysk "$(BLYSK)"
 	@tests/peers/fpminimax.py --blysk "$(BLYSK)"
+
+python: setup ## the wheel of hw-model/bindings/python, installed in target/venv-python, with its tests
+	@scripts/python
 
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)

@@ -11,6 +11,7 @@ pub mod hardware_cost;
 pub mod pareto;
 mod reference_product;
 pub mod refine;
+#[cfg(feature = "figures")]
 pub mod report;
 pub mod sizing;
 pub mod stability;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 /// Each crate of the product, and the crates of the workspace that it may know. A room that is not here has no place
 /// yet.
-const ARROWS: [(&str, &[&str]); 10] = [
+const ARROWS: [(&str, &[&str]); 11] = [
     ("hw-model", &[]),
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),
@@ -18,6 +18,7 @@ const ARROWS: [(&str, &[&str]); 10] = [
     ("plot", &[]),
     ("analysis", &["hw-model", "vectors", "bounds", "plot"]),
     ("scenes", &["hw-model", "vectors", "bounds", "plot"]),
+    ("blysk-python", &["hw-model", "vectors", "sim", "model", "bounds", "analysis"]),
     ("document", &["hw-model", "vectors", "sim", "plot"]),
     // What it shows is drawn by those it asks.
     ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "document"]),
@@ -30,7 +31,7 @@ const ARROWS_OF_TESTS: [(&str, &str); 1] = [("analysis", "sim")];
 const TESTERS: [&str; 2] = ["blysk-tests", "naive"];
 
 /// Libraries that one crate names and no other.
-const AT_HOME: [(&str, &str); 8] = [
+const AT_HOME: [(&str, &str); 10] = [
     ("kuva", "plot"),
     ("resvg", "plot"),
     ("svg", "plot"),
@@ -39,6 +40,8 @@ const AT_HOME: [(&str, &str); 8] = [
     ("indicatif", "cli"),
     ("comfy-table", "cli"),
     ("signal-hook", "cli"),
+    ("pyo3", "blysk-python"),
+    ("numpy", "blysk-python"),
 ];
 
 #[derive(Deserialize)]

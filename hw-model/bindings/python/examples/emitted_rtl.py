@@ -1,0 +1,15 @@
+"""The emitted RTL under cocotb: ten lines."""
+
+import os
+
+import blysk
+import cocotb
+from blysk.cocotb import Highlight
+
+
+@cocotb.test()
+async def answers_as_the_model(dut):
+    bench = Highlight(dut, blysk.Model.preset(os.environ["BLYSK_PRESET"]), seed=1, registers=True)
+    await bench.reset()
+    results = await bench.send(bench.stimulus(500))
+    dut._log.info(f"{results} results, {bench.lockstep.compared} registers compared")

@@ -1,0 +1,62 @@
+"""Runs an example: python run.py EXAMPLE [SIMULATOR [PRESET [DIRECTORY]]].
+
+EXAMPLE is emitted_rtl, own_dut or with_pyuvm; SIMULATOR is icarus or verilator (5.036 or newer), found in the path.
+"""
+
+import sys
+from pathlib import Path
+
+import blysk
+from cocotb_tools.check_results import get_results
+from cocotb_tools.runner import get_runner
+
+HERE = Path(__file__).resolve().parent
+
+#: Each example's top module and sources besides the emitted RTL.
+EXAMPLES = {
+    "emitted_rtl": ("blysk", []),
+    "own_dut": ("specular", [HERE / "own_dut.sv"]),
+    "with_pyuvm": ("blysk", []),
+}
+
+
+def run(
+    example: str, simulator: str, preset: str, directory: Path, alter: tuple[str, str, str] | None = None
+) -> tuple[int, int]:
+    """Emits the RTL of a preset, builds it and runs the example. Returns how many tests there were, and failed.
+
+    `alter` is a file of the RTL, a text in it, and what to put in its place: a mistake to be found.
+    """
+    rtl = directory / "rtl"
+    blysk.rtl(blysk.Model.preset(preset), rtl, count=64)
+    if alter is not None:
+        file, old, new = alter
+        text = (rtl / file).read_text()
+        assert old in text, f"{file} has no {old}"
+        (rtl / file).write_text(text.replace(old, new))
+    top, more = EXAMPLES[example]
+    runner = get_runner(simulator)
+    runner.build(
+        sources=[*(rtl / name for name in blysk.RTL_SOURCES), *more],
+        hdl_toplevel=top,
+        build_args=["-g2012"] if simulator == "icarus" else [],
+        build_dir=directory / "build",
+        always=True,
+    )
+    results = runner.test(
+        test_module=example,
+        hdl_toplevel=top,
+        build_dir=directory / "build",
+        test_dir=rtl,  # the ROM image is found there
+        results_xml=str(directory / "results.xml"),
+        extra_env={"BLYSK_PRESET": preset},
+    )
+    return get_results(results)
+
+
+if __name__ == "__main__":
+    given = dict(enumerate(sys.argv[1:]))
+    place = Path(given.get(3, "build")).resolve()
+    tests, failed = run(given.get(0, "emitted_rtl"), given.get(1, "icarus"), given.get(2, "compact"), place)
+    print(f"{tests} tests, {failed} failed")
+    sys.exit(failed > 0 or tests == 0)
