@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
 .PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
-	alterations clean help
+	alterations c header install clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -144,6 +144,21 @@ fuzz: ## every reader on altered files, for MINUTES=30; what is found is kept in
 alterations: ## thousands of altered and resealed certificates: none accepted that says what is not so
 	BLYSK_ALTERATIONS=$(or $(ALTERATIONS),2500) $(CARGO) test $(CHECKED) --locked --package blysk-tests \
 		--test altered_certificates -- --nocapture
+
+c: ## the C library with header, pkg-config file, DPI-C and VPI sources, in target/c/
+	$(CARGO) build --release --locked --package blysk-c
+	@scripts/c-library $(TARGET)/release target/c $(CURDIR)/target/c
+
+header: ## the header of the C library, written again from its sources
+	BLYSK_HEADER=write $(CARGO) test $(CHECKED) --locked --quiet --package blysk-c --test header
+
+# DESTDIR is for packagers: what is installed there says that it stands in PREFIX.
+PREFIX ?= /usr/local
+install: ## the command and the C library, in PREFIX=/usr/local
+	$(CARGO) build --release --locked --package cli --package blysk-c
+	@install -D -m 755 $(TARGET)/release/blysk $(DESTDIR)$(PREFIX)/bin/blysk
+	@scripts/c-library $(TARGET)/release $(DESTDIR)$(PREFIX) $(PREFIX)
+	@echo "Installed in $(DESTDIR)$(PREFIX); try: PKG_CONFIG_PATH=$(PREFIX)/lib/pkgconfig pkg-config --libs blysk"
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

@@ -13,6 +13,7 @@ const ARROWS: [(&str, &[&str]); 11] = [
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),
     ("model", &["hw-model", "vectors", "sim"]),
+    ("blysk-c", &["hw-model", "model"]),
     // Of vectors: the limits of work, progress, and the digests of seals.
     ("bounds", &["hw-model", "vectors"]),
     ("plot", &[]),
@@ -24,8 +25,9 @@ const ARROWS: [(&str, &[&str]); 11] = [
     ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "document"]),
 ];
 
-/// What tests and benchmarks of a crate may know besides: those of the analyses time the clocked simulator too.
-const ARROWS_OF_TESTS: [(&str, &str); 1] = [("analysis", "sim")];
+/// What tests and benchmarks of a crate may know besides: those of the analyses time the clocked
+/// simulator too, and those of the C library run the emitted RTL.
+const ARROWS_OF_TESTS: [(&str, &str); 2] = [("analysis", "sim"), ("blysk-c", "vectors")];
 
 /// Crates that test, which nothing may depend on but they themselves.
 const TESTERS: [&str; 2] = ["blysk-tests", "naive"];

@@ -28,13 +28,17 @@
 
 mod arrays;
 mod clocked;
+mod difference;
 mod error;
 mod handle;
+mod scoreboard;
 
 pub use arrays::Addresses;
 pub use clocked::Clocked;
+pub use difference::Difference;
 pub use error::{Code, Error};
 pub use handle::{Answer, Model};
 pub use hw_model::datapath::Status;
+pub use scoreboard::{Counts, Scoreboard, Seen, Verdict};
 pub use sim::pipeline::{Inputs, Outputs, Rank};
 pub use vectors::rtl::probes::{Port, Probe};

@@ -1,0 +1,114 @@
+//! The library as C sees it: `tests/c/checks.c` and the examples, compiled by the system's compilers, and run plainly,
+//! under valgrind, and with the address and undefined-behaviour sanitizers.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+mod support;
+
+use support::{SYSTEM, libraries, package, passes, shared_directory, static_library};
+
+const C: [&str; 6] = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-pedantic", "-g"];
+const CPP: [&str; 5] = ["-std=c++17", "-Wall", "-Wextra", "-Werror", "-g"];
+const SANITIZE: [&str; 2] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
+
+enum Link {
+    Static,
+    Shared,
+}
+
+/// Compiles a source of the package to a program.
+fn compile(source: &str, link: &Link, flags: &[&str]) -> PathBuf {
+    let cpp = source.ends_with(".cpp");
+    let stem = source.replace(['/', '.'], "_");
+    let kind = match link {
+        Link::Static => "static",
+        Link::Shared => "shared",
+    };
+    let sanitized = if flags.contains(&SANITIZE[0]) { "_sanitized" } else { "" };
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{stem}_{kind}{sanitized}"));
+    let mut compiler = Command::new(if cpp { "c++" } else { "cc" });
+    compiler.args(if cpp { &CPP[..] } else { &C[..] }).arg("-I").arg(package().join("include"));
+    compiler.arg(package().join(source)).arg("-o").arg(&program);
+    match link {
+        Link::Static => compiler.arg(static_library()).args(SYSTEM),
+        Link::Shared => compiler.arg("-L").arg(libraries()).args(["-lblysk", "-lm", "-lpthread"]),
+    };
+    passes(compiler.args(flags));
+    program
+}
+
+fn checks_pass(said: &str) {
+    let counts = said.lines().last().expect("a line of counts");
+    let (checks, failures) = counts.split_once(" checks, ").expect("a line of counts");
+    assert!(checks.parse::<u32>().is_ok_and(|checks| checks > 1000) && failures == "0 failures", "{said}");
+}
+
+/// No error and no leak: what valgrind calls reachable is what the standard library keeps to the end.
+fn valgrind(program: &Path) -> String {
+    let flags =
+        ["--quiet", "--error-exitcode=9", "--leak-check=full", "--errors-for-leak-kinds=definite,indirect,possible"];
+    passes(Command::new("valgrind").args(flags).arg(program))
+}
+
+#[test]
+fn checks_pass_with_either_library() {
+    checks_pass(&passes(&mut Command::new(compile("tests/c/checks.c", &Link::Static, &[]))));
+    let shared = compile("tests/c/checks.c", &Link::Shared, &[]);
+    checks_pass(&passes(Command::new(shared).env("LD_LIBRARY_PATH", shared_directory())));
+}
+
+#[test]
+fn checks_pass_under_valgrind() {
+    checks_pass(&valgrind(&compile("tests/c/checks.c", &Link::Static, &["-DVALGRIND"])));
+}
+
+#[test]
+fn checks_pass_with_sanitizers() {
+    let program = compile("tests/c/checks.c", &Link::Static, &SANITIZE);
+    checks_pass(&passes(&mut Command::new(program)));
+}
+
+#[test]
+fn threads_share_a_model() {
+    let said = passes(&mut Command::new(compile("examples/threads.c", &Link::Static, &SANITIZE)));
+    assert!(said.starts_with("the same: "), "{said}");
+    let said = valgrind(&compile("examples/threads.c", &Link::Static, &[]));
+    assert!(said.starts_with("the same: "), "{said}");
+}
+
+#[test]
+fn the_examples_run() {
+    let said = passes(&mut Command::new(compile("examples/highlight.c", &Link::Static, &[])));
+    assert!(said.contains("0.99^64 is about 0.52"), "{said}");
+    let said = passes(&mut Command::new(compile("examples/highlight.cpp", &Link::Static, &[])));
+    assert!(said.contains("refused: there is no preset \"none\""), "{said}");
+}
+
+#[test]
+fn the_systemc_module_does_what_the_model_does() {
+    let said = passes(&mut Command::new(compile("examples/systemc.cpp", &Link::Static, &["-lsystemc"])));
+    assert!(said.lines().any(|line| line == "PASS 4096 results"), "{said}");
+    let stalls = said.lines().find(|line| line.contains(" stalls, ")).expect("a line of counts");
+    assert!(!stalls.contains(" 0 stalls") && !stalls.contains(" 0 bubbles"), "{stalls}");
+}
+
+/// Every function of the header and no other name; the loader's name has the version of the ABI.
+#[test]
+fn the_shared_library_exports_the_header() {
+    let library = libraries().join("libblysk.so");
+    let symbols = passes(Command::new("nm").args(["--dynamic", "--defined-only", "--format=posix"]).arg(&library));
+    let mut exported: Vec<&str> = symbols.lines().filter_map(|line| line.split(' ').next()).collect();
+    exported.sort_unstable();
+    let header = std::fs::read_to_string(package().join("include/blysk.h")).expect("the header");
+    let is_comment = |line: &str| ["//", "/*", "*"].iter().any(|mark| line.trim_start().starts_with(mark));
+    let code: String = header.lines().filter(|line| !is_comment(line)).collect();
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let calls = code.match_indices('(').filter_map(|(at, _)| code[..at].rsplit(|c| !is_name(c)).next());
+    let mut declared: Vec<&str> = calls.filter(|name| name.starts_with("blysk_")).collect();
+    declared.sort_unstable();
+    assert_eq!(exported, declared);
+    assert!(exported.len() > 20, "{exported:?}");
+    let dynamic = passes(Command::new("readelf").arg("--dynamic").arg(&library));
+    assert!(dynamic.contains(&format!("soname: [libblysk.so.{}]", blysk::ABI_VERSION)), "{dynamic}");
+}
