@@ -60,7 +60,7 @@ static void constructors(void)
     blysk_interface ports;
     OK(blysk_model_interface(model, &ports));
     CHECK(ports.x.is_signed && ports.x.width == 11 && ports.x.integer_bits == 2 && ports.x.fraction_bits == 9);
-    CHECK(ports.depth == 8 && ports.address.width == 3);
+    CHECK(ports.depth == 8 && ports.address.width == 4);
     /* x = -1/2 faces away. */
     uint32_t address = 0;
     int64_t x = -256, intensity = 1;
@@ -240,6 +240,7 @@ static void clocked(const blysk_model *model, const blysk_interface *ports)
     REFUSED(blysk_pipeline_clock(NULL), BLYSK_CODE_NULL, "the pipeline");
     REFUSED(blysk_pipeline_reset(NULL), BLYSK_CODE_NULL, "the pipeline");
     REFUSED(blysk_pipeline_run(pipeline, NULL, 1, outputs), BLYSK_CODE_NULL, "the inputs");
+    blysk_pipeline_free(twin);
     REFUSED(blysk_pipeline_new(NULL, &twin), BLYSK_CODE_NULL, "the model");
     CHECK(twin == NULL);
     REFUSED(blysk_scoreboard_cycle(NULL, &wrong), BLYSK_CODE_NULL, "the scoreboard");
