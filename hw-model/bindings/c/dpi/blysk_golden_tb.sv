@@ -18,7 +18,7 @@
 `define DUT blysk
 `endif
 
-module blysk_dpi_tb;
+module blysk_golden_tb;
 
   localparam int ADDRESS = blysk_pkg::ADDRESS_WIDTH;
   localparam int INPUT   = blysk_pkg::INPUT_WIDTH;
