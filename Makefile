@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
 .PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
-	alterations c header install clean help
+	alterations c header install uvm clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -148,6 +148,11 @@ alterations: ## thousands of altered and resealed certificates: none accepted th
 c: ## the C library with header, pkg-config file, DPI-C and VPI sources, in target/c/
 	$(CARGO) build --release --locked --package blysk-c
 	@scripts/c-library $(TARGET)/release target/c $(CURDIR)/target/c
+
+uvm: setup c ## the UVM environment of the C library on emitted RTL, in Verilator; minutes
+	@rm -rf $(RESULTS)/uvm
+	@$(BLYSK) rtl --preset compact --count 16 --seed 1 --out $(RESULTS)/uvm
+	@scripts/uvm $(RESULTS)/uvm target/c/lib/libblysk.a
 
 header: ## the header of the C library, written again from its sources
 	BLYSK_HEADER=write $(CARGO) test $(CHECKED) --locked --quiet --package blysk-c --test header

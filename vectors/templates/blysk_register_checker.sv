@@ -5,7 +5,7 @@
 `timescale 1ns / 1ps
 `default_nettype none
 
-module blysk_register_checker (
+module [[ name ]] (
   input logic                                clk_i,
   input logic                                rst_i,
   input logic                                in_valid_i,
@@ -18,10 +18,10 @@ module blysk_register_checker (
   input logic [blysk_pkg::STATUS_WIDTH-1:0]  status_o
 );
 
-  // Every register, found in the instance around this one.
+  // Every register, seen from here upwards: in the instance of the pipeline that this one is bound into.
   logic [64*[[ paths.len() ]]-1:0] registers;
 <%- for path in paths %>
-  assign registers[64*[[ loop.index0 ]]+:64] = 64'([[ path ]]);
+  assign registers[64*[[ loop.index0 ]]+:64] = 64'([[ dut ]].[[ path ]]);
 <%- endfor %>
 
   blysk_judge #(
@@ -36,6 +36,6 @@ module blysk_register_checker (
 
 endmodule
 
-bind [[ dut ]] blysk_register_checker register_checker (.*);
+bind [[ dut ]] [[ name ]] register_checker (.*);
 
 `default_nettype wire

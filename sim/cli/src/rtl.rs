@@ -7,7 +7,7 @@ use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
-use vectors::rtl::Modules;
+use vectors::rtl::{Modules, REGISTER_CHECKER, register_checker};
 use vectors::{Bundle, Strategy, rtl};
 
 use super::bar::Bar;
@@ -36,6 +36,10 @@ pub(super) struct Args {
     /// only its ports are checked.
     #[arg(long, value_name = "NAME", value_parser = module_name)]
     dut: Option<String>,
+    /// Write `blysk_register_checker.sv` too: judges every register beside the golden model by DPI-C, in a simulator
+    /// that has it; needs the library libblysk.
+    #[arg(long, conflicts_with = "dut")]
+    checker: bool,
     /// How vectors are chosen: mixed, corners, even, random or exhaustive.
     #[arg(long, default_value_t)]
     strategy: Strategy,
@@ -53,11 +57,12 @@ fn module_name(text: &str) -> Result<String, NameError> {
 
 impl Args {
     fn command(&self) -> String {
-        let Self { prefix, dut, strategy, count, seed, .. } = self;
+        let Self { prefix, dut, checker, strategy, count, seed, .. } = self;
         let configuration = self.configuration.option();
         let dut = dut.as_ref().filter(|dut| *dut != prefix).map(|dut| format!(" --dut {dut}")).unwrap_or_default();
         let prefix = if prefix == TOP { String::new() } else { format!(" --prefix {prefix}") };
-        format!("blysk rtl {configuration}{prefix}{dut} --strategy {strategy} --count {count} --seed {seed}")
+        let checker = if *checker { " --checker" } else { "" };
+        format!("blysk rtl {configuration}{prefix}{dut}{checker} --strategy {strategy} --count {count} --seed {seed}")
     }
 }
 
@@ -66,12 +71,17 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
     let command = args.command();
     let inputs = args.configuration.files();
-    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(&modules, args.strategy))?;
+    let checker = args.checker.then(|| modules.file(REGISTER_CHECKER));
+    let names = rtl::names(&modules, args.strategy).into_iter().chain(checker.clone());
+    let mut set = output::set(&args.out, "rtl", &inputs, names)?;
     let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
     // Every vector goes to the testbench's files and to those of its registers.
     let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
     let watcher = |vectors| bar.advance(vectors);
     let manifest = rtl::stage(&bundle.watched(&watcher), &modules, &command, &mut set)?;
+    if let Some(name) = checker {
+        set.write(&name, register_checker(&design, &modules, &command))?;
+    }
     bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);

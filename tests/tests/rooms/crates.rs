@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 /// Each crate of the product, and the crates of the workspace that it may know. A room that is not here has no place
 /// yet.
-const ARROWS: [(&str, &[&str]); 11] = [
+const ARROWS: [(&str, &[&str]); 12] = [
     ("hw-model", &[]),
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),

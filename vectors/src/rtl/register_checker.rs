@@ -13,15 +13,17 @@ pub const REGISTER_CHECKER: &str = "blysk_register_checker.sv";
 /// along, so that a simulation needs no file of it.
 #[must_use]
 pub fn register_checker(design: &Design, modules: &Modules, command: &str) -> String {
+    let file = modules.file(REGISTER_CHECKER);
     let checker = RegisterChecker {
         configuration: &design.config().name,
         command,
+        name: file.trim_end_matches(".sv"),
         dut: modules.dut(),
         paths: probes(design.datapath()).into_iter().map(|probe| probe.path).collect(),
         json: literal(&design.config().to_json()),
     };
     // The template writes to a String, which cannot fail.
-    checker.render().unwrap_or_default() + "\n"
+    modules.text(&(checker.render().unwrap_or_default() + "\n"))
 }
 
 #[derive(Template)]
@@ -29,6 +31,7 @@ pub fn register_checker(design: &Design, modules: &Modules, command: &str) -> St
 struct RegisterChecker<'a> {
     configuration: &'a str,
     command: &'a str,
+    name: &'a str,
     dut: &'a str,
     paths: Vec<String>,
     json: String,

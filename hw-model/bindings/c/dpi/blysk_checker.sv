@@ -12,9 +12,9 @@
 //
 // At the first cycle that differs it prints "FAIL cycle ..." with what the DUT shows, what was expected, the request,
 // and what every register of that request should be, and ends the simulation by $fatal(1). At the end of the
-// simulation it prints what was compared, and "PASS <count> results" or "FAIL ...": a run whose last line of these is not
-// PASS has failed, whatever its exit status. With +keep_going it goes on after a difference, and says at the end how
-// many cycles differ.
+// simulation it prints what was compared, and "PASS <count> results" or "FAIL ...": a run whose last line of these is
+// not PASS has failed, whatever its exit status. With +keep_going it goes on after a difference, and says at the end
+// how many cycles differ.
 //
 // This module sees ports alone. blysk_register_checker, which `blysk rtl --checker` writes beside the RTL of a
 // configuration, sees every register too, and names the first one that departs.
@@ -75,11 +75,10 @@ module blysk_judge #(
 
   import blysk_dpi_pkg::*;
 
-  localparam int WORDS = REGISTERS == 0 ? 1 : REGISTERS;
-  // As wide as this configuration has registers, and so not in the package.
-  import "DPI-C" function int blysk_dpi_registers(
-    input chandle scoreboard, input int unsigned count, input logic [64*WORDS-1:0] words
-  );
+  // Registers go to the library sixteen at a time.
+  localparam int PARTS = REGISTERS == 0 ? 1 : (REGISTERS + 15) / 16;
+  logic [1024*PARTS-1:0] parts;
+  assign parts = (1024*PARTS)'(registers_i);
 
   chandle model, scoreboard;
   bit     ready, keep_going, failed;
@@ -115,7 +114,8 @@ module blysk_judge #(
   always @(posedge clk_i) begin
     if (ready) begin
       if (REGISTERS != 0)
-        if (blysk_dpi_registers(scoreboard, REGISTERS, registers_i) != CODE_OK) fail;
+        for (int i = 0; i < PARTS; i = i + 1)
+          if (blysk_dpi_registers(scoreboard, REGISTERS, 16 * i, parts[1024*i+:1024]) != CODE_OK) fail;
       if (blysk_dpi_cycle(scoreboard,
           level(rst_i), level(in_valid_i), level(in_ready_o),
           8'(^{address_i, x_i} !== 1'bx), 32'(address_i), 64'(x_i),

@@ -59,6 +59,11 @@ package blysk_dpi_pkg;
     input byte unsigned out_valid, input byte unsigned out_ready,
     input byte unsigned result_known, input longint unsigned intensity, input longint unsigned status
   );
+  // What the DUT's registers hold at the edge that the next blysk_dpi_cycle judges, of count in all the sixteen from
+  // first on: 64 bits for each, in the order of blysk_registers, the first lowest.
+  import "DPI-C" function int blysk_dpi_registers(
+    input chandle scoreboard, input int unsigned count, input int unsigned first, input logic [1023:0] words
+  );
   // What was seen so far, and the line that begins with PASS or FAIL.
   import "DPI-C" function string blysk_dpi_summary(input chandle scoreboard);
   import "DPI-C" function string blysk_dpi_verdict(input chandle scoreboard);

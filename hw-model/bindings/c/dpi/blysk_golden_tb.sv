@@ -24,6 +24,8 @@ module blysk_golden_tb;
   localparam int INPUT   = blysk_pkg::INPUT_WIDTH;
   localparam int OUTPUT  = blysk_pkg::OUTPUT_WIDTH;
   localparam int STATUS  = blysk_pkg::STATUS_WIDTH;
+  // x = 1, where the format has one integer bit.
+  localparam logic [63:0] ONE = 64'd1 << (INPUT - 1);
 
   logic               clk, rst, in_valid, in_ready, out_valid, out_ready;
   logic [ADDRESS-1:0] address;
@@ -86,8 +88,8 @@ module blysk_golden_tb;
     if (!in_valid || in_ready || rst) begin
       in_valid <= !(mode[1] && draws[1]);
       address  <= ADDRESS'(random);
-      x        <= draws[31:30] == 0 ? INPUT'({random, draws})
-                                    : INPUT'(64'd1 << (INPUT - 1)) - INPUT'({random, draws} >> (66 - INPUT + draws[5:2]));
+      if (draws[31:30] == 0) x <= INPUT'({random, draws});
+      else x <= INPUT'(ONE - ({random, draws} >> (66 - INPUT + draws[5:2])));
     end
     cycle = cycle + 1;
     if (cycle == cycles) $finish;

@@ -38,7 +38,7 @@ int main(void)
         need(blysk_x_bits(model, 0.96 + 0.01 * i, &x[i]));
     need(blysk_evaluate(model, &address, 1, x, COUNT, bits, status));
     for (int i = 0; i < COUNT; i++)
-        printf("address %u, x %lld: intensity %lld, status %u\n", address, (long long)x[i], (long long)bits[i], status[i]);
+        printf("x %lld: intensity %lld, status %u\n", (long long)x[i], (long long)bits[i], status[i]);
 
     /* Every register of every rank. */
     blysk_register *registers = calloc(ports.register_count, sizeof *registers);

@@ -370,11 +370,14 @@ blysk_code blysk_dpi_cycle(blysk_scoreboard *scoreboard,
                            uint64_t intensity,
                            uint64_t status);
 
-// What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: `count` of them, in the order of
-// `blysk_registers`. Each has 64 bits of a `logic` vector, the first register lowest: two pairs of 32 values and 32
-// marks of z and x, as `svLogicVecVal` has them.
+// What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: of `count` in all, in the order of
+// `blysk_registers`, the 16 from `first` on, or as many as are left.
+//
+// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of z
+// and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
 blysk_code blysk_dpi_registers(blysk_scoreboard *scoreboard,
                                uint32_t count,
+                               uint32_t first,
                                const uint32_t *words);
 
 // What was seen so far: `6449 cycles, 1051 stalls, 972 bubbles, 3 resets, 40960 values compared`; an empty text for

@@ -87,26 +87,38 @@ pub extern "C" fn blysk_dpi_cycle(
     })
 }
 
-/// What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: `count` of them, in the order of
-/// `blysk_registers`. Each has 64 bits of a `logic` vector, the first register lowest: two pairs of 32 values and 32
-/// marks of z and x, as `svLogicVecVal` has them.
+/// Registers that go in one call of [`blysk_dpi_registers`].
+const TOGETHER: usize = 16;
+
+/// What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: of `count` in all, in the order of
+/// `blysk_registers`, the 16 from `first` on, or as many as are left.
+///
+/// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of z
+/// and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
 #[unsafe(no_mangle)]
-pub extern "C" fn blysk_dpi_registers(scoreboard: Option<&mut Scoreboard>, count: u32, words: In<u32>) -> Code {
+pub extern "C" fn blysk_dpi_registers(
+    scoreboard: Option<&mut Scoreboard>,
+    count: u32,
+    first: u32,
+    words: In<u32>,
+) -> Code {
     guard(|| {
         let scoreboard = given(scoreboard, SCOREBOARD)?;
         let wanted = scoreboard.model.model.probes().len();
-        let count = count as usize;
-        if count != wanted {
+        if count as usize != wanted {
             return Err(Failure::Differs(format!(
                 "the DUT shows {count} registers, and the configuration has {wanted}; is it another configuration?"
             )));
         }
-        let words = words.get(4 * count, "the words")?.chunks_exact(4);
-        let word = |parts: &[u32]| match parts {
-            &[low, 0, high, 0] => Some(u64::from(high) << 32 | u64::from(low)),
-            _ => None,
-        };
-        scoreboard.registers = Some(words.map(word).collect());
+        let registers = scoreboard.registers.get_or_insert_with(|| vec![None; wanted]);
+        let places = registers.iter_mut().skip(first as usize).take(TOGETHER);
+        let words = words.get(4 * places.len(), "the words")?;
+        for (place, parts) in places.zip(words.chunks_exact(4)) {
+            *place = match parts {
+                &[low, 0, high, 0] => Some(u64::from(high) << 32 | u64::from(low)),
+                _ => None,
+            };
+        }
         Ok(())
     })
 }

@@ -158,3 +158,40 @@ const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_V
 pub extern "C" fn blysk_version() -> *const c_char {
     VERSION.as_ptr()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn last() -> String {
+        LAST.with(|last| last.borrow().to_string_lossy().into_owned())
+    }
+
+    #[test]
+    fn a_panic_becomes_a_code() {
+        assert_eq!(guard(|| panic!("on purpose")), Code::Internal);
+        assert!(last().starts_with("a mistake inside the library"));
+        // A call that succeeds leaves the sentence.
+        assert_eq!(guard(|| Ok(())), Code::Ok);
+        assert!(last().starts_with("a mistake inside the library"));
+    }
+
+    #[test]
+    fn a_sentence_has_no_zero_byte() {
+        assert_eq!(guard(|| Err(Failure::Differs("a\0b".to_owned()))), Code::Differs);
+        assert_eq!(last(), "ab");
+    }
+
+    #[test]
+    fn codes_of_the_model_keep_their_numbers() {
+        let codes = [
+            (model::Code::NoPreset, Code::NoPreset),
+            (model::Code::Configuration, Code::Configuration),
+            (model::Code::Design, Code::Design),
+            (model::Code::Exponent, Code::Exponent),
+            (model::Code::X, Code::X),
+            (model::Code::Argument, Code::Argument),
+        ];
+        assert!(codes.iter().all(|&(model, here)| model as i32 == here as i32));
+    }
+}

@@ -54,10 +54,6 @@ fn check_verilator(home: Option<&Path>, name: &str) {
     let watched = verilate(home, &directory, &["-DUNCHECKED"], &[REGISTER_CHECKER]);
     let said = fails(&mut simulation(&watched, &directory));
     assert!(said.contains(": stage2.t2 is "), "{said}");
-    // Another configuration than the DUT's.
-    let other = verilate(home, &directory, &["-DCONFIGURATION=\"precise\""], &[]);
-    let said = fails(&mut simulation(&other, &directory));
-    assert!(said.contains("of the DUT has a width of "), "{said}");
 }
 
 #[test]
@@ -70,12 +66,37 @@ fn the_newer_verilator_judges_by_dpi() {
     check_verilator(Some(&newer_verilator()), "dpi_newer");
 }
 
+/// The checker's configuration is a file, and not that of the DUT.
+#[test]
+fn another_configuration_is_noticed() {
+    let directory = emit("compact", "dpi_other");
+    let file = package().join("../../../docs/examples/compact_12_bit.json");
+    let configuration = format!("-DCONFIGURATION=\"{}\"", file.display());
+    let program = verilate(Some(&newer_verilator()), &directory, &[&configuration], &[]);
+    let said = fails(&mut simulation(&program, &directory));
+    assert!(said.contains("FAIL intensity_o of the DUT has a width of 16, and 12 in "), "{said}");
+}
+
 /// Every kind of register: the power form, and the divider's ranks.
 #[test]
 fn every_register_of_the_tail_is_seen() {
     let directory = emit("paper", "dpi_paper");
     let program = verilate(Some(&newer_verilator()), &directory, &["-DUNCHECKED"], &[REGISTER_CHECKER]);
     judged(&passes(&mut simulation(&program, &directory)));
+}
+
+/// Slang takes the language as the standard has it: no simulator with DPI-C but Verilator runs in these tests.
+#[test]
+fn slang_reads_the_checkers() {
+    let directory = emit("compact", "dpi_slang");
+    let (root, dpi) = (package().join("../../.."), package().join("dpi"));
+    let mut slang = Command::new(root.join("target/venv/bin/python"));
+    slang.arg(root.join("tests/src/rtl/slang.py"));
+    slang.args(["-Wextra", "-Wpedantic", "-Werror", "-Wno-useless-cast", "--top", "blysk_golden_tb"]);
+    slang.args(sources(&directory)).arg(dpi.join("blysk_dpi_pkg.sv")).arg(dpi.join("blysk_checker.sv"));
+    slang.arg(dpi.join("blysk_golden_tb.sv")).arg(directory.join(REGISTER_CHECKER));
+    let said = passes(&mut slang);
+    assert!(said.contains("0 errors, 0 warnings"), "{said}");
 }
 
 /// Compiles testbench and checker for Icarus, and runs them with the library as a VPI module.

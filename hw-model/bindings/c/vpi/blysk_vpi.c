@@ -19,13 +19,12 @@
 
 #include "blysk.h"
 
-enum { BOARDS = 16, PATH = 512 };
+enum { BOARDS = 16, PATH = 512, TOGETHER = 16 }; /* TOGETHER: registers in one call of blysk_dpi_registers */
 
 static struct board {
     blysk_model *model;
     blysk_scoreboard *scoreboard;
     vpiHandle *watched; /* the DUT's registers, in the order of the model's; null where they are not watched */
-    uint32_t *words;    /* four of them for each register, as blysk_dpi_registers takes them */
     uint32_t count;
 } boards[BOARDS];
 static int made;
@@ -140,8 +139,7 @@ static bool find(struct board *board, const char *scope)
     size_t count = ports.register_count;
     blysk_register *registers = calloc(count, sizeof *registers);
     board->watched = calloc(count, sizeof *board->watched);
-    board->words = calloc(4 * count, sizeof *board->words);
-    bool found = registers != NULL && board->watched != NULL && board->words != NULL &&
+    bool found = registers != NULL && board->watched != NULL &&
                  blysk_registers(board->model, 0, 0, registers, count) == BLYSK_CODE_OK;
     for (size_t i = 0; found && i < count; i++) {
         char path[PATH];
@@ -186,10 +184,12 @@ static PLI_INT32 cycle(PLI_BYTE8 *data)
     vpi_free_object(all);
     blysk_code code = BLYSK_CODE_NULL;
     if (board != NULL) {
-        for (uint32_t i = 0; i < board->count; i++)
-            pairs_of(board->watched[i], &board->words[4 * i]);
-        if (board->count > 0)
-            blysk_dpi_registers(board->scoreboard, board->count, board->words);
+        for (uint32_t first = 0; first < board->count; first += TOGETHER) {
+            uint32_t words[4 * TOGETHER];
+            for (uint32_t i = 0; i < TOGETHER && first + i < board->count; i++)
+                pairs_of(board->watched[first + i], &words[4 * i]);
+            blysk_dpi_registers(board->scoreboard, board->count, first, words);
+        }
         code = blysk_dpi_cycle(board->scoreboard, reset, in_valid, in_ready, request, address, x, out_valid, out_ready,
                                result, intensity, status);
     }
@@ -211,7 +211,6 @@ static PLI_INT32 end(p_cb_data data)
         blysk_scoreboard_free(board->scoreboard);
         blysk_model_free(board->model);
         free(board->watched);
-        free(board->words);
     }
     made = 0;
     return 0;

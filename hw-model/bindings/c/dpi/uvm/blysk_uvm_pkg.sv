@@ -45,7 +45,7 @@ package blysk_uvm_pkg;
   endclass
 
   // ---- Reference model --------------------------------------------------------------------------------
-  // The golden model of the configuration that is set as "configuration": the name of a preset.
+  // The golden model of a preset: the one that +configuration=NAME or uvm_config_db says, or compact.
   class blysk_reference extends uvm_component;
     chandle model;
 
@@ -58,7 +58,8 @@ package blysk_uvm_pkg;
     function void build_phase(uvm_phase phase);
       string configuration;
       super.build_phase(phase);
-      if (!uvm_config_db#(string)::get(this, "", "configuration", configuration)) configuration = "compact";
+      if (!$value$plusargs("configuration=%s", configuration))
+        if (!uvm_config_db#(string)::get(this, "", "configuration", configuration)) configuration = "compact";
       if (blysk_model_preset(ABI_VERSION, configuration, model) != CODE_OK) `uvm_fatal("BLYSK", blysk_last_error())
     endfunction
 

@@ -275,16 +275,13 @@ static void words(const blysk_model *model, const blysk_interface *ports)
     OK(blysk_dpi_cycle(scoreboard, 1, 3, 3, 0, 0, 0, 3, 3, 0, 0, 0));
     OK(blysk_dpi_cycle(scoreboard, 0, 1, 1, 1, 63, 8304722, 0, 1, 0, 0, 0));
     uint32_t none[4] = {0};
-    REFUSED(blysk_dpi_registers(scoreboard, 1, none), BLYSK_CODE_DIFFERS, "another configuration");
-    size_t bytes = ports->register_count * 4 * sizeof(uint32_t);
-    uint32_t *unknown = malloc(bytes);
-    CHECK(unknown != NULL);
-    if (unknown != NULL) {
-        memset(unknown, 0xff, bytes);
-        OK(blysk_dpi_registers(scoreboard, (uint32_t)ports->register_count, unknown));
-        REFUSED(blysk_dpi_cycle(scoreboard, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0), BLYSK_CODE_DIFFERS, "is x, expected");
-    }
-    free(unknown);
+    REFUSED(blysk_dpi_registers(scoreboard, 1, 0, none), BLYSK_CODE_DIFFERS, "another configuration");
+    uint32_t unknown[64];
+    memset(unknown, 0xff, sizeof unknown);
+    OK(blysk_dpi_registers(scoreboard, (uint32_t)ports->register_count, 0, unknown));
+    OK(blysk_dpi_registers(scoreboard, (uint32_t)ports->register_count, UINT32_MAX, unknown));
+    REFUSED(blysk_dpi_registers(scoreboard, (uint32_t)ports->register_count, 0, NULL), BLYSK_CODE_NULL, "the words");
+    REFUSED(blysk_dpi_cycle(scoreboard, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0), BLYSK_CODE_DIFFERS, "is x, expected");
     REFUSED(blysk_dpi_cycle(scoreboard, 0, 3, 1, 1, 0, 0, 0, 1, 0, 0, 0), BLYSK_CODE_DIFFERS, "in_valid_i has an x");
     CHECK(strstr(blysk_dpi_summary(scoreboard), "4 cycles") != NULL);
     CHECK(strncmp(blysk_dpi_verdict(scoreboard), "FAIL 2 of 4 cycles", 18) == 0);
