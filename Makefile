@@ -107,6 +107,7 @@ python: setup ## the wheel of hw-model/bindings/python, installed in target/venv
 bench: setup ## speed beside Verilator's, results checked first; DOCS=1 writes docs/BENCHMARKS.md
 	$(CARGO) run --locked --quiet --release --bin bench -- $(if $(DOCS),--docs docs/BENCHMARKS.md)
 	$(CARGO) bench --package analysis --bench throughput --locked
+	$(CARGO) bench --package blysk-c --bench checker --locked
 
 pareto: ## what precision costs, every contender at every x: docs/pareto.csv, docs/PARETO.md and its plots; minutes
 	@mkdir -p target

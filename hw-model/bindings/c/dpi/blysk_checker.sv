@@ -1,5 +1,6 @@
 // Judges a DUT beside the golden model, cycle by cycle: handshake, latency, order, intensity and status, whatever
-// drives the DUT. It drives nothing itself.
+// drives the DUT. It drives nothing itself. It sees ports at the rising edge as they are before what the edge brings:
+// so a testbench drives them by nonblocking assignments, or away from the edge.
 //
 //   blysk_checker #(.CONFIGURATION("compact")) checker_of_dut (.clk_i, .rst_i, .in_valid_i, .in_ready_o, ...);
 //

@@ -33,6 +33,7 @@ mod pipelines;
 mod scoreboards;
 
 #[allow(unsafe_code)]
+#[allow(clippy::too_many_arguments, reason = "SystemVerilog hands over ports one by one")]
 mod dpi;
 
 mod names;

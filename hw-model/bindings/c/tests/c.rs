@@ -93,6 +93,38 @@ fn the_systemc_module_does_what_the_model_does() {
     assert!(!stalls.contains(" 0 stalls") && !stalls.contains(" 0 bubbles"), "{stalls}");
 }
 
+/// What `make c` and `make install` lay out is found by pkg-config, in its place and under another prefix.
+#[test]
+fn an_installed_library_is_found_by_pkg_config() {
+    let place = Path::new(env!("CARGO_TARGET_TMPDIR")).join("installed");
+    let _ = std::fs::remove_dir_all(&place);
+    let built = place.join("built");
+    std::fs::create_dir_all(&built).expect("a directory");
+    std::fs::copy(static_library(), built.join("libblysk.a")).expect("the library is copied");
+    std::fs::copy(libraries().join("libblysk.so"), built.join("libblysk.so")).expect("the library is copied");
+    let script = package().join("../../../scripts/c-library");
+    passes(Command::new(&script).arg(&built).arg(&place));
+    let pkg_config = |flags: &[&str]| {
+        let mut command = Command::new("pkg-config");
+        passes(command.args(flags).arg("blysk").env("PKG_CONFIG_PATH", place.join("lib/pkgconfig")))
+    };
+    let flags = pkg_config(&["--cflags", "--libs"]);
+    let program = place.join("highlight");
+    let mut compiler = Command::new("cc");
+    compiler.args(C).arg(place.join("share/blysk/examples/highlight.c")).args(flags.split_whitespace());
+    passes(compiler.arg("-o").arg(&program));
+    let said = passes(Command::new(&program).env("LD_LIBRARY_PATH", place.join("lib")));
+    assert!(said.contains("0.99^64 is about 0.52"), "{said}");
+    let static_flags = pkg_config(&["--static", "--libs"]);
+    assert!(SYSTEM.iter().all(|library| static_flags.contains(library)), "{static_flags}");
+
+    let packaged = place.join("package");
+    passes(Command::new(&script).arg(&built).arg(&packaged).arg("/opt/blysk"));
+    let file = std::fs::read_to_string(packaged.join("lib/pkgconfig/blysk.pc")).expect("the pkg-config file");
+    assert!(file.starts_with("prefix=/opt/blysk\n") && !file.contains('@'), "{file}");
+    assert!(packaged.join("share/blysk/dpi/blysk_dpi_pkg.sv").is_file());
+}
+
 /// Every function of the header and no other name; the loader's name has the version of the ABI.
 #[test]
 fn the_shared_library_exports_the_header() {
