@@ -5,7 +5,7 @@
 //! use model::{Clocked, Inputs, Model};
 //!
 //! let model = Model::preset("compact")?;
-//! assert_eq!(model.highlight(64.0, 0.99)?, 0.526123046875);
+//! assert_eq!(model.highlight(64.0, 0.99)?, 0.5257568359375);
 //!
 //! let (address, x) = (model.address(64.0)?, model.x_bits(0.99)?);
 //! let answer = model.evaluate(address, x)?;
