@@ -28,7 +28,7 @@ def run(
     `alter` is a file of the RTL, a text in it, and what to put in its place: a mistake to be found.
     """
     rtl = directory / "rtl"
-    blysk.rtl(blysk.Model.preset(preset), rtl, count=64)
+    blysk.rtl(blysk.Model.preset(preset), rtl, strategy="even", count=64)
     if alter is not None:
         file, old, new = alter
         text = (rtl / file).read_text()

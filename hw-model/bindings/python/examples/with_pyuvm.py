@@ -1,4 +1,4 @@
-"""The emitted RTL in a pyuvm environment: sequence, driver, monitor and scoreboard, whose reference is `blysk.Model`."""
+"""The emitted RTL in a pyuvm environment, whose scoreboard asks `blysk.Model`."""
 
 import os
 

@@ -4,7 +4,9 @@
 //! interpreter's lock.
 #![deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable)]
 
+mod answers;
 mod arrays;
+mod cycles;
 mod errors;
 mod facts;
 mod files;

@@ -9,6 +9,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::answers;
 use crate::arrays::{self, Reals, Whole, broadcast};
 use crate::errors;
 use crate::facts::{Format, Port, Probe};
@@ -115,7 +116,7 @@ impl Model {
                 let value = self.golden.highlight(n, x).map_err(errors::refused)?;
                 Ok(value.into_pyobject(py)?.into_any())
             }
-            (n, Reals::Many(xs)) => Ok(arrays::highlight(py, &self.golden, &n, &xs)?.into_any()),
+            (n, Reals::Many(xs)) => Ok(answers::highlight(py, &self.golden, &n, &xs)?.into_any()),
             (Reals::Many(_), Reals::One(_)) => Err(errors::input("n is an array and x is not; give as many")),
         }
     }
@@ -148,7 +149,7 @@ impl Model {
             addresses = self.addresses(pick(address, &first), pick(n, &first))?;
             xs = self.x_of(pick(x_bits, &second), pick(x, &second))?;
         }
-        arrays::evaluate(py, &self.golden, &addresses, &xs)?.into_pyobject(py)
+        answers::evaluate(py, &self.golden, &addresses, &xs)?.into_pyobject(py)
     }
 
     /// What every register of every rank holds of one request, by its RTL name, in the order of the ranks.

@@ -5,7 +5,8 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Levels, Whole, cycles};
+use crate::arrays::Whole;
+use crate::cycles::{Levels, cycles};
 use crate::errors;
 use crate::model::Model;
 
@@ -81,7 +82,8 @@ impl Pipeline {
 
     /// One clock cycle: what the ports show at the rising edge that ends it, and then the edge.
     ///
-    /// x is bits in the input format. Raises `InputError` where the format does not hold them; then no cycle has passed.
+    /// x is bits in the input format. Raises `InputError` where the format does not hold them; then no cycle has
+    /// passed.
     #[pyo3(signature = (in_valid=false, address=0, x=0, out_ready=true, reset=false))]
     fn tick(&mut self, in_valid: bool, address: u32, x: i64, out_ready: bool, reset: bool) -> PyResult<Outputs> {
         let inputs = Inputs { reset, in_valid, address, x, out_ready };

@@ -27,7 +27,7 @@ def write(rows, log):
 
 
 def test_a_bundle_is_written_and_judged(compact, tmp_path):
-    manifest = blysk.vectors(compact, tmp_path / "vectors", count=300, seed=7)
+    manifest = blysk.vectors(compact, tmp_path / "vectors", strategy="corners", count=300, seed=7)
     assert manifest["counts"]["vectors"] == 300 and manifest["hardware"]["latency"] == compact.latency
     rows = answers(compact, tmp_path / "vectors")
     write(rows, tmp_path / "log.csv")
@@ -48,7 +48,7 @@ def test_a_bundle_is_written_and_judged(compact, tmp_path):
 
 def test_the_same_call_writes_the_same_bytes(compact, tmp_path):
     for place in ("a", "b"):
-        blysk.rtl(compact, tmp_path / place, count=32, seed=3)
+        blysk.rtl(compact, tmp_path / place, strategy="random", count=32, seed=3)
     names = sorted(path.name for path in (tmp_path / "a").iterdir())
     assert set(blysk.RTL_SOURCES) <= set(names) and "blysk_tb.sv" in names
     for name in names:

@@ -27,7 +27,7 @@ def requests(model, count, seed=1):
 
 
 def test_a_highlight_is_a_real_number(compact):
-    assert compact.highlight(64, 0.99) == 0.526123046875
+    assert compact.highlight(64, 0.99) == 0.5257568359375
     assert abs(compact.highlight(64, 0.99) - 0.99**64) < 0.0067
     assert compact.highlight(1, 2.0) == 1.0
     assert compact.highlight(1, -1.0) == 0.0
@@ -59,7 +59,7 @@ def test_whole_numbers_of_any_kind_are_the_same(compact):
     apart[::2] = xs
     assert np.array_equal(compact.evaluate(addresses, apart[::2]), wanted)
     assert np.array_equal(compact.evaluate(addresses[::-1], xs[::-1]), [half[::-1] for half in wanted])
-    assert compact.evaluate(np.int64(63), np.uint32(8304722)) == (17240, 0)
+    assert compact.evaluate(np.int64(63), np.uint32(8304722)) == (17228, 0)
 
 
 def test_arrays_keep_their_shape_and_are_broadcast(compact):
@@ -72,7 +72,7 @@ def test_arrays_keep_their_shape_and_are_broadcast(compact):
     assert np.array_equal(rows[0][2], compact.evaluate(2, xs)[0])
     every = compact.evaluate(np.arange(256), 8304722)
     assert every[0].shape == (256,)
-    assert every[0][63] == 17240
+    assert every[0][63] == 17228
     assert compact.evaluate([], [])[0].shape == (0,)
     assert compact.highlight(np.array([1.0, 64.0])[:, None], [0.5, 0.99, 1.0]).shape == (2, 3)
 
@@ -86,7 +86,7 @@ def test_exponents_and_real_numbers(compact):
     intensity, status = compact.evaluate(n=64, x=xs)
     assert np.array_equal(intensity * compact.formats["intensity"].ulp, highlights)
     assert set(status.tolist()) <= {0, int(blysk.Status.ABOVE_ONE), int(blysk.Status.CLAMPED)}
-    assert compact.evaluate(n=64, x=0.99) == compact.evaluate(63, 8304722) == (17240, 0)
+    assert compact.evaluate(n=64, x=0.99) == compact.evaluate(63, 8304722) == (17228, 0)
     by_bits = compact.evaluate(compact.address(64), [compact.x_bits(x) for x in xs])
     assert np.array_equal(by_bits[0], intensity)
 
@@ -114,10 +114,10 @@ def test_rom_and_coefficients_are_those_of_the_rows(model):
     rom, real = model.rom(), model.coefficients
     assert np.array_equal(rom["n"], model.exponents) and np.array_equal(real["n"], np.arange(1, 257))
     registers = model.registers(64, 0.5)
-    fetched = {register.name.removeprefix("fetch."): register.bits for register in registers.values() if register.rank == 0}
-    assert {name: bits for name, bits in fetched.items() if name in rom} == {
-        name: int(rom[name][63]) for name in fetched if name in rom
-    }
+    fetched = [register for register in registers.values() if register.rank == 0 and "rom." in register.path]
+    assert fetched
+    for register in fetched:
+        assert register.bits == rom[register.name.removeprefix("fetch.")][63], register.name
     assert np.allclose(real["q"], 0.5 ** (1 / real["n"]))
 
 

@@ -3,9 +3,9 @@
 >>> import blysk
 >>> model = blysk.Model.preset("compact")
 >>> model.highlight(64, 0.99)
-0.526123046875
+0.5257568359375
 >>> model.evaluate(63, 8304722)  # the ports address and x; intensity and status
-(17240, 0)
+(17228, 0)
 
 `Model` answers requests, one or an array of them, and tells every register; `Pipeline` is clocked; `vectors`, `rtl` and
 `check` are the files of a testbench; `report` measures errors; `blysk.cocotb` drives a simulated design.

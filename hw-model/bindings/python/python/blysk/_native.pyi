@@ -1,4 +1,4 @@
-"""The native part of `blysk`. Real numbers are floats, bits are ints in the unit of their format (value · 2^fraction)."""
+"""Types of the native part of `blysk`. `help()` has its documentation, which stands in the sources of Rust."""
 
 import os
 from typing import Any, overload
