@@ -9,8 +9,8 @@ use super::column::Got;
 use super::verdict::{Failure, Field, Verdict};
 use crate::table::hex;
 
-/// `PASS` with the number of vectors; or `FAIL` with the first vector that differs, where it departs, and how many fail.
-/// The last line has no end.
+/// `PASS` with the number of vectors; or `FAIL` with the first vector that differs, where it departs, and how many
+/// fail. The last line has no end.
 impl fmt::Display for Verdict {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(failure) = &self.first else { return write!(f, "PASS {} vectors", self.vectors) };

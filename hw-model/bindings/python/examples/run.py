@@ -3,6 +3,7 @@
 EXAMPLE is emitted_rtl, own_dut or with_pyuvm; SIMULATOR is icarus or verilator (5.036 or newer), found in the path.
 """
 
+import contextlib
 import sys
 from pathlib import Path
 
@@ -28,7 +29,8 @@ def run(
     `alter` is a file of the RTL, a text in it, and what to put in its place: a mistake to be found.
     """
     rtl = directory / "rtl"
-    blysk.rtl(blysk.Model.preset(preset), rtl, strategy="even", count=64)
+    if not rtl.exists():
+        blysk.rtl(blysk.Model.preset(preset), rtl, strategy="even", count=64)
     if alter is not None:
         file, old, new = alter
         text = (rtl / file).read_text()
@@ -40,17 +42,20 @@ def run(
         sources=[*(rtl / name for name in blysk.RTL_SOURCES), *more],
         hdl_toplevel=top,
         build_args=["-g2012"] if simulator == "icarus" else [],
-        build_dir=directory / "build",
-        always=True,
+        build_dir=directory / top,
+        always=alter is not None,
     )
-    results = runner.test(
-        test_module=example,
-        hdl_toplevel=top,
-        build_dir=directory / "build",
-        test_dir=rtl,  # the ROM image is found there
-        results_xml=str(directory / "results.xml"),
-        extra_env={"BLYSK_PRESET": preset},
-    )
+    results = directory / "results.xml"
+    # Where a test fails, the runner ends the program; what the results say is for the caller.
+    with contextlib.suppress(SystemExit):
+        runner.test(
+            test_module=example,
+            hdl_toplevel=top,
+            build_dir=directory / top,
+            test_dir=rtl,  # the ROM image is found there
+            results_xml=str(results),
+            extra_env={"BLYSK_PRESET": preset},
+        )
     return get_results(results)
 
 

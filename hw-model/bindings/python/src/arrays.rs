@@ -4,10 +4,9 @@
 //! types, slices with gaps) are converted once, by numpy. What is no such number is refused.
 
 use model::Error;
-use numpy::{
-    Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods, get_array_module,
-};
+use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
+use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -97,6 +96,10 @@ pub(crate) fn in_place<'py, T: Element>(given: &Bound<'py, PyAny>) -> PyResult<O
     }
 }
 
+fn numpy(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
+    py.import(intern!(py, "numpy"))
+}
+
 /// An array of type `to` from another, which may be of these `kinds`.
 pub(crate) fn converted<'py, T: Element>(
     given: &Bound<'py, PyAny>,
@@ -107,7 +110,7 @@ pub(crate) fn converted<'py, T: Element>(
 ) -> PyResult<PyReadonlyArrayDyn<'py, T>> {
     let py = given.py();
     let refused = |has: &str| PyTypeError::new_err(format!("{what} are {wanted}, not {has}"));
-    let numpy = get_array_module(py)?;
+    let numpy = numpy(py)?;
     let array = numpy.call_method1("asarray", (given,)).map_err(|_| refused("a list of lists of other lengths"))?;
     let dtype = array.getattr("dtype")?;
     let kind: String = dtype.getattr("str")?.extract()?;
@@ -131,7 +134,7 @@ pub(crate) fn broadcast<'py>(
         (Some(first), Some(second)) if first == second => return Ok(None),
         _ => {}
     }
-    let numpy = get_array_module(first.py())?;
+    let numpy = numpy(first.py())?;
     let both = numpy
         .call_method1("broadcast_arrays", (first, second))
         .map_err(|error| errors::input(said(first.py(), &error)))?;

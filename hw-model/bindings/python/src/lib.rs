@@ -1,4 +1,5 @@
-//! `blysk._native`: the golden model as Python sees it. What Python calls is documented in `python/blysk/_native.pyi`.
+//! `blysk._native`: the golden model as Python sees it. `help()` shows what is written here, and
+//! `python/blysk/_native.pyi` has the types.
 //!
 //! Numbers are converted and checked here and computed in the crates below. Work over arrays runs without the
 //! interpreter's lock.
@@ -6,6 +7,7 @@
 
 mod answers;
 mod arrays;
+mod bound;
 mod cycles;
 mod errors;
 mod facts;
@@ -22,6 +24,8 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _native {
     #[pymodule_export]
+    use super::bound::{Claim, Worst};
+    #[pymodule_export]
     use super::errors::{BlyskError, ConfigurationError, ExponentError, FileError, InputError};
     #[pymodule_export]
     use super::facts::{Format, Port, Probe, Register};
@@ -32,7 +36,7 @@ mod _native {
     #[pymodule_export]
     use super::pipeline::{Outputs, Pipeline, Rank};
     #[pymodule_export]
-    use super::report::{Claim, Worst, report};
+    use super::report::report;
 
     use pyo3::prelude::*;
 

@@ -11,10 +11,10 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::answers;
 use crate::arrays::{self, Reals, Whole, broadcast};
+use crate::bound::{self, Claim};
 use crate::errors;
 use crate::facts::{Format, Port, Probe};
 use crate::registers::Registers;
-use crate::report::{self, Claim};
 use crate::tables;
 
 type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
@@ -247,8 +247,8 @@ impl Model {
     /// The real functions behind the ROM, as columns with a row for each address.
     ///
     /// `n`, `q` and `cut`; in power form `c0` to `c3` of x^0 to x^3, of the first segment; in centred form `start` and
-    /// `c0` to `c3` in s − start with s = 1 − x, and for a further segment `start_1`, `c0_1` and so on; with a rational
-    /// tail x / (tail_a − tail_b·x). NaN where a row has no such part.
+    /// `c0` to `c3` of c0 − v·(c1 − v·(c2 − v·c3)) in v = 1 − x − start, and for a further segment `start_1`, `c0_1`
+    /// and so on; with a rational tail x / (tail_a − tail_b·x). NaN where a row has no such part.
     #[getter]
     fn coefficients<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         tables::coefficients(py, self.golden.design())
@@ -264,7 +264,7 @@ impl Model {
         if let Some(found) = self.bound.get() {
             return Ok(found.clone());
         }
-        let found = report::bound(py, self.golden.design())?;
+        let found = bound::bound(py, self.golden.design())?;
         Ok(self.bound.get_or_init(|| found).clone())
     }
 

@@ -25,19 +25,26 @@ def simulator(request, monkeypatch):
     return request.param
 
 
+@pytest.fixture(scope="session")
+def built(tmp_path_factory):
+    """A place for what is built of each preset, once for all examples that run it."""
+    top = tmp_path_factory.mktemp("built")
+    return lambda simulator, preset: top / f"{preset}_{simulator}"
+
+
 @pytest.mark.parametrize("preset", ["compact", "paper"])
-def test_the_emitted_rtl_passes(simulator, preset, tmp_path, capfd):
-    assert run("emitted_rtl", simulator, preset, tmp_path) == (1, 0)
+def test_the_emitted_rtl_passes(simulator, preset, built, capfd):
+    assert run("emitted_rtl", simulator, preset, built(simulator, preset)) == (1, 0)
     told = capfd.readouterr()
     assert "500 results, " in told.out + told.err
 
 
-def test_a_design_of_ones_own_passes(simulator, tmp_path):
-    assert run("own_dut", simulator, "compact", tmp_path) == (2, 0)
+def test_a_design_of_ones_own_passes(simulator, built):
+    assert run("own_dut", simulator, "compact", built(simulator, "compact")) == (2, 0)
 
 
-def test_pyuvm_passes(simulator, tmp_path):
-    assert run("with_pyuvm", simulator, "compact", tmp_path) == (1, 0)
+def test_pyuvm_passes(simulator, built):
+    assert run("with_pyuvm", simulator, "compact", built(simulator, "compact")) == (1, 0)
 
 
 #: A file, a text, the mistake, and the register at which it is first seen.

@@ -71,7 +71,7 @@ def test_files_that_are_refused(compact, tmp_path):
         blysk.check(tmp_path / "none", tmp_path / "log.csv")
     (tmp_path / "file").write_text("")
     with pytest.raises(blysk.FileError):
-        blysk.vectors(compact, tmp_path / "file" / "below", count=4)
+        blysk.vectors(compact, tmp_path / "file" / "below", strategy="random", count=4)
 
 
 def test_a_report_has_a_row_for_each_exponent(compact):

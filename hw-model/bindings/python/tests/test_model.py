@@ -123,8 +123,8 @@ def test_rom_and_coefficients_are_those_of_the_rows(model):
 
 def test_a_polynomial_in_real_numbers(compact):
     real = compact.coefficients
-    s = 1 - 0.99
-    value = sum(real[f"c{power}"][63] * (s - real["start"][63]) ** power for power in range(4))
+    v = 1 - 0.99 - real["start"][63]
+    value = sum(real[f"c{power}"][63] * (-v) ** power for power in range(4))
     assert abs(value - compact.highlight(64, 0.99)) < 1e-4
 
 

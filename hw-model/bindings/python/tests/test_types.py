@@ -20,8 +20,9 @@ def test_the_package_keeps_its_types(tmp_path):
 
 
 def test_the_stubs_are_of_the_module(tmp_path):
-    (tmp_path / "allowed").write_text("")
-    run("mypy.stubtest", "blysk._native", "--allowlist", str(tmp_path / "allowed"))
+    # The list of names is pyo3's own.
+    (tmp_path / "allowed").write_text("blysk._native.__all__\n")
+    run("mypy.stubtest", "blysk._native", "--ignore-disjoint-bases", "--allowlist", str(tmp_path / "allowed"))
 
 
 def test_a_caller_has_types(tmp_path):

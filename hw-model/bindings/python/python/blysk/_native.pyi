@@ -1,10 +1,11 @@
 """Types of the native part of `blysk`. `help()` has its documentation, which stands in the sources of Rust."""
 
 import os
-from typing import Any, overload
+from typing import Any, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Self
 
 __version__: str
 RTL_SOURCES: list[str]
@@ -20,8 +21,9 @@ class InputError(BlyskError): ...
 
 class FileError(BlyskError): ...
 
+@final
 class Format:
-    def __init__(self, text: str) -> None: ...
+    def __new__(cls, text: str) -> Self: ...
     @property
     def signed(self) -> bool: ...
     @property
@@ -40,6 +42,7 @@ class Format:
     def word(self, bits: int) -> int: ...
     def bits(self, word: int) -> int: ...
 
+@final
 class Port:
     @property
     def name(self) -> str: ...
@@ -48,6 +51,7 @@ class Port:
     @property
     def format(self) -> Format: ...
 
+@final
 class Probe:
     @property
     def rank(self) -> int: ...
@@ -60,6 +64,7 @@ class Probe:
     @property
     def computed(self) -> bool: ...
 
+@final
 class Register:
     @property
     def probe(self) -> Probe: ...
@@ -78,6 +83,7 @@ class Register:
     @property
     def format(self) -> Format: ...
 
+@final
 class Worst:
     @property
     def error(self) -> float: ...
@@ -86,6 +92,7 @@ class Worst:
     @property
     def n(self) -> float: ...
 
+@final
 class Bound:
     @property
     def epicentre(self) -> Worst: ...
@@ -94,6 +101,7 @@ class Bound:
     @property
     def points(self) -> int: ...
 
+@final
 class Model:
     @staticmethod
     def preset(name: str) -> Model: ...
@@ -149,6 +157,7 @@ class Model:
     @property
     def probes(self) -> list[Probe]: ...
 
+@final
 class Outputs:
     @property
     def in_ready(self) -> bool: ...
@@ -159,6 +168,7 @@ class Outputs:
     @property
     def status(self) -> int: ...
 
+@final
 class Rank:
     @property
     def name(self) -> str: ...
@@ -169,8 +179,9 @@ class Rank:
     @property
     def registers(self) -> dict[str, Register]: ...
 
+@final
 class Pipeline:
-    def __init__(self, model: Model) -> None: ...
+    def __new__(cls, model: Model) -> Self: ...
     @property
     def model(self) -> Model: ...
     @property
