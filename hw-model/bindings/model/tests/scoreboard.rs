@@ -7,10 +7,10 @@ fn drive(cycle: u64) -> Inputs {
     let random = cycle.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
     Inputs {
         reset: cycle < 2 || cycle == 150,
-        in_valid: random % 4 != 0,
+        in_valid: random & 3 != 0,
         address: (random / 16 % 256) as u32,
         x: (1 << 23) - (random / 64 % (1 << 18)) as i64,
-        out_ready: random / 4 % 4 != 0,
+        out_ready: random >> 2 & 3 != 0,
     }
 }
 
