@@ -8,6 +8,7 @@ mod answers;
 mod bar;
 mod certify;
 mod check;
+mod choice;
 mod claims;
 mod coefficients;
 mod configuration;

@@ -7,10 +7,10 @@ use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
-use vectors::rtl::Modules;
-use vectors::{Bundle, Strategy, rtl};
+use vectors::rtl::{self, Dut, DutPorts, Emission, Modules};
 
 use super::bar::Bar;
+use super::choice::Choice;
 use super::configuration::Configuration;
 use super::out::{Out, Outcome};
 use super::output;
@@ -36,42 +36,63 @@ pub(super) struct Args {
     /// only its ports are checked.
     #[arg(long, value_name = "NAME", value_parser = module_name)]
     dut: Option<String>,
-    /// How vectors are chosen: mixed, corners, even, random or exhaustive.
-    #[arg(long, default_value_t)]
-    strategy: Strategy,
-    /// How many vectors the bundle has.
-    #[arg(long, default_value_t = 4096)]
-    count: u64,
-    /// Seed of the random vectors.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Cycles from a request to its answer in your own module, where they are not the pipeline's.
+    #[arg(long, value_name = "CYCLES", requires = "dut", value_parser = clap::value_parser!(u32).range(0..=MOST_LATENCY))]
+    dut_latency: Option<u32>,
+    /// What the ports of your own module are called, and which it has: {"ports": {"clk_i": "clk", "rst_i": "!rst_n",
+    /// "in_ready_o": null}, "tied": {"scan": 0}}; ! is active low, null not there.
+    #[arg(long, value_name = "FILE", requires = "dut")]
+    ports: Option<PathBuf>,
+    /// Put the ROM's words into the source, for tools that read no memory files.
+    #[arg(long, conflicts_with = "dut")]
+    rom_in_source: bool,
+    #[command(flatten)]
+    choice: Choice,
 }
+
+/// The longest latency of a module under test: its testbench keeps what is under way.
+const MOST_LATENCY: i64 = 1 << 16;
 
 fn module_name(text: &str) -> Result<String, NameError> {
     names::module(text).map(|()| text.to_owned())
 }
 
 impl Args {
+    /// How the module under test differs from the pipeline, where something is said of that.
+    fn dut(&self) -> anyhow::Result<Option<Dut>> {
+        if self.dut_latency.is_none() && self.ports.is_none() {
+            return Ok(None);
+        }
+        let ports = self.ports.as_ref().map(|path| DutPorts::read(path)).transpose()?.unwrap_or_default();
+        Ok(Some(Dut { latency: self.dut_latency, ports }))
+    }
+
     fn command(&self) -> String {
-        let Self { prefix, dut, strategy, count, seed, .. } = self;
+        let Self { prefix, dut, choice, .. } = self;
         let configuration = self.configuration.option();
         let dut = dut.as_ref().filter(|dut| *dut != prefix).map(|dut| format!(" --dut {dut}")).unwrap_or_default();
         let prefix = if prefix == TOP { String::new() } else { format!(" --prefix {prefix}") };
-        format!("blysk rtl {configuration}{prefix}{dut} --strategy {strategy} --count {count} --seed {seed}")
+        let latency = self.dut_latency.map(|cycles| format!(" --dut-latency {cycles}")).unwrap_or_default();
+        let ports = self.ports.as_ref().map(|path| format!(" --ports {}", names::shell(path))).unwrap_or_default();
+        let rom = if self.rom_in_source { " --rom-in-source" } else { "" };
+        format!("blysk rtl {configuration}{prefix}{dut}{latency}{ports}{rom} {}", choice.options())
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let modules = Modules::new(&args.prefix, args.dut.as_deref()).context("--dut")?;
+    let emission = Emission { modules, rom_in_source: args.rom_in_source, dut: args.dut()? };
+    let modules = &emission.modules;
     let design = args.configuration.design()?;
     let command = args.command();
-    let inputs = args.configuration.files();
-    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(&modules, args.strategy))?;
-    let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
+    let maps = args.ports.iter().cloned().collect();
+    let inputs = [args.configuration.files(), args.choice.files(), maps].concat();
+    let mut set = output::set(&args.out, "rtl", &inputs, rtl::names(&emission, args.choice.strategy()))?;
+    let bundle = args.choice.bundle(&design, &command)?;
     // Every vector goes to the testbench's files and to those of its registers.
     let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
     let watcher = |vectors| bar.advance(vectors);
-    let manifest = rtl::stage(&bundle.watched(&watcher), &modules, &command, &mut set)?;
+    let manifest = rtl::stage(&bundle.watched(&watcher), &emission, &command, &mut set)?;
     bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);
