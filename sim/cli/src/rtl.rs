@@ -7,7 +7,7 @@ use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
-use vectors::rtl::{self, Dut, DutPorts, Emission, Modules};
+use vectors::rtl::{self, CLOCK_MHZ, Dut, DutPorts, Emission, Modules};
 
 use super::bar::Bar;
 use super::choice::Choice;
@@ -43,6 +43,9 @@ pub(super) struct Args {
     /// "in_ready_o": null}, "tied": {"scan": 0}}; ! is active low, null not there.
     #[arg(long, value_name = "FILE", requires = "dut")]
     ports: Option<PathBuf>,
+    /// The clock in the constraints (SDC) that are written for synthesis, in MHz.
+    #[arg(long, value_name = "MHZ", default_value_t = CLOCK_MHZ, value_parser = clock)]
+    clock_mhz: f64,
     /// Put the ROM's words into the source, for tools that read no memory files.
     #[arg(long, conflicts_with = "dut")]
     rom_in_source: bool,
@@ -52,6 +55,11 @@ pub(super) struct Args {
 
 /// The longest latency of a module under test: its testbench keeps what is under way.
 const MOST_LATENCY: i64 = 1 << 16;
+
+fn clock(text: &str) -> Result<f64, String> {
+    let right = |mhz: &f64| (0.001..=100_000.0).contains(mhz);
+    text.parse().ok().filter(right).ok_or_else(|| "write a clock in MHz from 0.001 to 100000, such as 125".to_owned())
+}
 
 fn module_name(text: &str) -> Result<String, NameError> {
     names::module(text).map(|()| text.to_owned())
@@ -74,14 +82,16 @@ impl Args {
         let prefix = if prefix == TOP { String::new() } else { format!(" --prefix {prefix}") };
         let latency = self.dut_latency.map(|cycles| format!(" --dut-latency {cycles}")).unwrap_or_default();
         let ports = self.ports.as_ref().map(|path| format!(" --ports {}", names::shell(path))).unwrap_or_default();
+        let clock =
+            if self.clock_mhz == CLOCK_MHZ { String::new() } else { format!(" --clock-mhz {}", self.clock_mhz) };
         let rom = if self.rom_in_source { " --rom-in-source" } else { "" };
-        format!("blysk rtl {configuration}{prefix}{dut}{latency}{ports}{rom} {}", choice.options())
+        format!("blysk rtl {configuration}{prefix}{dut}{latency}{ports}{rom}{clock} {}", choice.options())
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let modules = Modules::new(&args.prefix, args.dut.as_deref()).context("--dut")?;
-    let emission = Emission { modules, rom_in_source: args.rom_in_source, dut: args.dut()? };
+    let emission = Emission { modules, rom_in_source: args.rom_in_source, dut: args.dut()?, clock_mhz: args.clock_mhz };
     let modules = &emission.modules;
     let design = args.configuration.design()?;
     let command = args.command();

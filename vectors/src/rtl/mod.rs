@@ -13,14 +13,15 @@ mod rom_source;
 pub mod save_file;
 mod sources;
 mod testbench;
+pub mod wrappers;
 
 use std::io::Write;
 
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
-use hw_model::rtl::SOURCES;
 pub use hw_model::rtl::{PACKAGE, TESTBENCH};
+use hw_model::rtl::{SOURCES, WRAPPER};
 
 use crate::bundle::{self, Bundle, BundleError};
 use crate::case::Strategy;
@@ -29,7 +30,7 @@ use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
 pub use dut_ports::{DutPorts, PortMapError};
 pub use dut_testbench::dut_testbench;
-pub use emission::{Dut, Emission};
+pub use emission::{CLOCK_MHZ, Dut, Emission};
 pub use files::{CORE, EXPONENTS, MAKEFILE, SAVE_FILE, STAGES};
 use files::{SCOPE, WAVES};
 pub use modules::Modules;
@@ -62,13 +63,16 @@ pub fn stage(
 ) -> Result<Manifest, BundleError> {
     let (design, modules) = (bundle.design(), &emission.modules);
     let sources = Sources { design, modules, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
-    for (name, text) in SOURCES {
+    for (name, text) in SOURCES.into_iter().chain([WRAPPER]) {
         let text = if emission.rom_in_source { &in_source(text, design) } else { text };
         set.write(&modules.file(name), modules.text(text))?;
     }
     set.write(&modules.file(PACKAGE), modules.text(&package(design, command)))?;
     let bench = emission.dut.as_ref().map_or_else(|| testbench(&sources), |dut| dut_testbench(&sources, dut));
     set.write(&modules.file(TESTBENCH), modules.text(&bench))?;
+    for (name, text) in wrappers::wrappers(&sources, emission) {
+        set.write(&modules.file(name), text)?;
+    }
     set.write(MAKEFILE, modules.text(&project::makefile(&sources)))?;
     set.write(&modules.file(CORE), modules.text(&project::core_file(&sources)))?;
     let (names, scope) = match &emission.dut {
