@@ -12,6 +12,7 @@ mod choice;
 mod claims;
 mod coefficients;
 mod configuration;
+mod coverage;
 mod design;
 mod document;
 mod evaluate;

@@ -3,12 +3,16 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::{Args as ClapArgs, ValueEnum};
+use sim::coverage::Coverage;
+use vectors::output_text::json;
 use vectors::{Bundle, Manifest, WholeFile, bundle};
 
 use super::bar::Bar;
 use super::choice::Choice;
 use super::configuration::Configuration;
+use super::coverage;
 use super::out::{Out, Outcome};
 use super::output;
 use super::table::write_folded;
@@ -38,6 +42,10 @@ pub(super) struct Args {
     format: Shape,
     #[command(flatten)]
     choice: Choice,
+    /// Also write coverage.json, and print it: the bits of every register that changed, and those that cannot; the
+    /// classes of corners; regions under stalls and bubbles.
+    #[arg(long)]
+    coverage: bool,
 }
 
 /// The files that the command writes.
@@ -64,16 +72,35 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let bundle = || args.choice.bundle(&design, &command);
     if args.format == Shape::Csv {
         let file = WholeFile::apart_from(&inputs, &args.out)?;
+        if args.coverage {
+            bail!("--coverage is for --format files; coverage.json stands beside them");
+        }
         return table(&bundle()?, file, out);
     }
-    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, bundle::names(args.choice.strategy()))?;
+    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, names(args))?;
     let bundle = bundle()?;
     let bar = Bar::counting(Some(bundle.vector_count()), "vectors");
     let watcher = |vectors| bar.advance(vectors);
-    let manifest = bundle.watched(&watcher).stage(&mut set)?;
+    let bundle = bundle.watched(&watcher);
+    let manifest = bundle.stage(&mut set)?;
     bar.finish();
+    let coverage = args.coverage.then(|| Coverage::of(&design, &bundle.samples().collect::<Vec<_>>(), manifest.seed));
+    match &coverage {
+        Some(coverage) => set.write(coverage::FILE, json(coverage)?)?,
+        // Of other vectors in the same directory.
+        None => set.obsolete(coverage::FILE),
+    }
     set.commit()?;
-    print(args, &manifest, out)
+    print(args, &manifest, out)?;
+    if let Some(coverage) = &coverage {
+        coverage::print(coverage, out)?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// The files of the command.
+fn names(args: &Args) -> impl Iterator<Item = &'static str> {
+    bundle::names(args.choice.strategy()).chain(args.coverage.then_some(coverage::FILE))
 }
 
 /// Writes what `vectors.csv` of the bundle would hold, and nothing else.
@@ -87,7 +114,7 @@ fn table(bundle: &Bundle<'_>, file: WholeFile, out: &mut Out) -> anyhow::Result<
     Ok(Outcome::Good)
 }
 
-fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outcome> {
+fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<()> {
     let counts = &manifest.counts;
     writeln!(
         out,
@@ -102,5 +129,5 @@ fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outc
     for note in &manifest.notes {
         write_folded(out, &format!("note: {note}"))?;
     }
-    Ok(Outcome::Good)
+    Ok(())
 }

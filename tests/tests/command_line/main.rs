@@ -29,3 +29,4 @@ mod specialise;
 mod stability;
 mod streams;
 mod vectors;
+mod wrappers;
