@@ -41,7 +41,6 @@ module blysk_tb;
 
   // ---- What the ports have ------------------------------------------------------------------------
   localparam logic HAS_RESET     = [[ has.reset ]];
-  localparam logic HAS_IN_VALID  = [[ has.in_valid ]];
   localparam logic HAS_IN_READY  = [[ has.in_ready ]];
   localparam logic HAS_OUT_VALID = [[ has.out_valid ]];
   localparam logic HAS_OUT_READY = [[ has.out_ready ]];
@@ -120,15 +119,13 @@ module blysk_tb;
 <% include "tb_complete.sv" %>
 
   task automatic start;
-    in_valid <= 1'b0;
     tick = 0; oldest = 0; under_way = 0; sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = '0;
     words_compared = 0; failures = 0; waits = 1'b0; stalled = 1'b0;
     reset_left = HAS_RESET ? 4 : 0;
-    rst <= HAS_RESET;
   endtask
 
   initial begin
-    ended = 1'b0; probing = 1'b1; address = '0; x = '0; out_ready = 1'b1;
+    ended = 1'b0; probing = 1'b1; rst = HAS_RESET; in_valid = 1'b0; address = '0; x = '0; out_ready = 1'b1;
     start;
     if (!$value$plusargs("seed=%d", seed)) seed = 1;
     if (!$value$plusargs("expected=%s", expected_file)) expected_file = "expected.mem";
@@ -207,12 +204,12 @@ module blysk_tb;
 
   // ---- Which assumption fails -----------------------------------------------------------------------
   // How many of the first `count` answers are seen `offset` cycles from where they belong; of the intensity alone.
-  function automatic integer matches(input integer count, input integer offset);
+  function automatic integer agreeing(input integer count, input integer offset);
     integer k, at;
-    matches = 0;
+    agreeing = 0;
     for (k = 0; k < count; k = k + 1) begin
       at = taken_at[k] + LATENCY + offset;
-      if (at >= 0 && at < HISTORY && seen_intensity[at] === expected[k][OUTPUT-1:0]) matches = matches + 1;
+      if (at >= 0 && at < HISTORY && seen_intensity[at] === expected[k][OUTPUT-1:0]) agreeing = agreeing + 1;
     end
   endfunction
 
@@ -227,10 +224,13 @@ module blysk_tb;
   endfunction
 
   task automatic said(input integer offset);
-    if (offset < 0) $display("FAIL latency: answers come %0d cycles early, after %0d and not after %0d: --dut-latency %0d",
-      -offset, LATENCY + offset, LATENCY, LATENCY + offset);
-    else $display("FAIL latency: answers come %0d cycles late, after %0d and not after %0d: --dut-latency %0d",
-      offset, LATENCY + offset, LATENCY, LATENCY + offset);
+    string  unit, side;
+    integer apart;
+    unit = offset == 1 || offset == -1 ? "cycle" : "cycles";
+    side = offset < 0 ? "early" : "late";
+    apart = offset < 0 ? -offset : offset;
+    $display("FAIL latency: answers come %0d %0s %0s, after %0d and not after %0d: --dut-latency %0d",
+      apart, unit, side, LATENCY + offset, LATENCY, LATENCY + offset);
     stop;
   endtask
 
@@ -245,13 +245,13 @@ module blysk_tb;
       if (^seen_intensity[i] === 1'bx) unknown = unknown + 1;
     end
     if (count > PROBE) count = PROBE;
-    here = matches(count, 0);
+    here = agreeing(count, 0);
     best = here;
     best_offset = 0;
     for (i = 1; i <= REACH; i = i + 1) begin
       for (offset = -i; offset <= i; offset = offset + 2 * i) begin
-        if (LATENCY + offset >= 0 && matches(count, offset) > best) begin
-          best = matches(count, offset);
+        if (LATENCY + offset >= 0 && agreeing(count, offset) > best) begin
+          best = agreeing(count, offset);
           best_offset = offset;
         end
       end

@@ -151,7 +151,7 @@ fn the_assumption_that_fails_is_named() {
     }
     // Without a flag the time of the answers alone tells.
     let (good, text) = said(&bench, ("bare", BARE, BARE_PORTS), latency() + 1, "icarus");
-    assert!(!good && text.contains("answers come 1 cycles early"), "{text}");
+    assert!(!good && text.contains("answers come 1 cycle early"), "{text}");
     // A wrong answer is no wrong assumption.
     let wrong = TIMED.replace("{y_1, flags_1} <= {y_0, flags_0}", "{y_1, flags_1} <= {y_0 ^ (y_0 == 100), flags_0}");
     let (good, text) = said(&bench, ("timed", wrong.leak(), TIMED_PORTS), right, "icarus");

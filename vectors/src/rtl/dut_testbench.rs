@@ -67,7 +67,6 @@ struct DutTestbench<'a> {
 /// Which ports there are, as constants of Verilog.
 struct Has {
     reset: &'static str,
-    in_valid: &'static str,
     in_ready: &'static str,
     out_valid: &'static str,
     out_ready: &'static str,
@@ -79,7 +78,6 @@ impl Has {
         let bit = |port| if ports.has(port) { "1'b1" } else { "1'b0" };
         Self {
             reset: bit("rst_i"),
-            in_valid: bit("in_valid_i"),
             in_ready: bit("in_ready_o"),
             out_valid: bit("out_valid_o"),
             out_ready: bit("out_ready_i"),
