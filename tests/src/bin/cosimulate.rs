@@ -12,6 +12,7 @@
 use std::io::BufReader;
 use std::process::{ExitCode, Stdio};
 
+use blysk_tests::rtl::coverage::{self, Shares};
 use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
@@ -203,6 +204,9 @@ fn run(extent: Extent) -> Result<Totals, Failure> {
         let simulators = extent.simulators(preset.name, &simulators);
         let total = everything(&emitted, preset.name, &simulators, Some(VERILATOR_CYCLES))?;
         flows(&emitted, preset.name, &releases)?;
+        if extent == Extent::Everything {
+            covered(&emitted, preset.name, &simulators)?;
+        }
         Ok(total)
     });
     let scenes = extent.of(&SCENES).par_iter().map(|scene| {
@@ -296,6 +300,22 @@ fn flows(emitted: &Emitted<'_>, name: &str, releases: &[Simulator]) -> Result<()
     }
     let names: Vec<&str> = releases.iter().map(|release| release.name.as_str()).collect();
     println!("{name:<14} make icarus, control, waves: {}", names.join(", "));
+    Ok(())
+}
+
+/// What the default bundle reaches of the RTL.
+fn covered(emitted: &Emitted<'_>, name: &str, simulators: &[Simulator]) -> Result<(), Failure> {
+    let Some(newer) = simulators.last() else { return failed("no Verilator to measure coverage with") };
+    let shares = coverage::check(emitted, newer).map_err(|error| Failure(format!("{name}: {error}")))?;
+    let Shares { lines, toggles, beyond, registers } = shares;
+    println!(
+        "{name:<14} coverage: lines {} of {}, toggles {} of {}, {beyond} points beyond reach; registers {:.2} %",
+        lines.0,
+        lines.1,
+        toggles.0,
+        toggles.1,
+        100.0 * registers
+    );
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! The RTL in real simulators.
 
 pub mod axis;
+pub mod coverage;
 pub mod exhaustive;
 pub mod faults;
 pub mod fusesoc;

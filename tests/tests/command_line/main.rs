@@ -8,6 +8,7 @@ mod certify;
 mod check;
 mod closed_output;
 mod coefficients;
+mod coverage;
 mod design;
 mod dut;
 mod evaluate;
