@@ -264,6 +264,8 @@ fn everything(
     simulators::yosys_reads(&emitted.directory)?;
     readers::check(&emitted.directory).map_err(|error| Failure(format!("{name}: {error}")))?;
     wrappers::check(&emitted.directory, &Modules::default()).map_err(|error| Failure(format!("{name}: {error}")))?;
+    let pass = wrappers::verilog_2005(&emitted.directory, emitted.design.datapath(), emitted.vectors);
+    pass.map_err(|error| Failure(format!("{name}: {error}")))?;
     parts(emitted, name)?;
     let mut totals = Totals::default();
     for (index, simulator) in simulators.iter().enumerate() {

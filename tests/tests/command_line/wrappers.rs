@@ -2,7 +2,10 @@
 
 use ::vectors::rtl::Modules;
 use blysk_tests::bench;
+use blysk_tests::cli::CONFIGURATIONS;
 use blysk_tests::rtl::wrappers::{check, verilog_2005};
+use hw_model::config::Config;
+use hw_model::design::Design;
 
 #[test]
 fn wrappers_and_descriptions_are_read() {
@@ -26,10 +29,11 @@ fn wrappers_and_descriptions_are_read() {
 #[test]
 fn verilog_2005_answers_the_vectors() {
     let bench = bench!();
-    for (file, place) in [("small.json", "small"), ("centred.json", "centred"), ("divider.json", "divider")] {
+    for (file, json) in CONFIGURATIONS {
+        let place = format!("{file}.rtl");
         let _hint = bench.good(&format!("rtl --config {file} --count 300 --out {place}"));
-        let _hint = bench.good(&format!("rtl --config {file} --count 300 --out {place}_ports --dut other"));
-        let (pipeline, ports) = (bench.path(place), bench.path(&format!("{place}_ports")));
-        verilog_2005(&pipeline, &ports, "other", 300).unwrap_or_else(|error| panic!("{file}: {error}"));
+        let design = Design::new(Config::from_json(json).unwrap()).unwrap();
+        let passed = verilog_2005(&bench.path(&place), design.datapath(), 300);
+        passed.unwrap_or_else(|error| panic!("{file}: {error}"));
     }
 }
