@@ -52,8 +52,8 @@ def main():
     for preset in [line.split(",")[0] for line in listed.splitlines()[1:]]:
         rows.append(gates(args.blysk, preset))
         print(" ".join(rows[-1]), flush=True)
-    head = "| configuration | NAND2 equivalents | area, µm² | flip-flops | ROM, bits (left out) |\n|---|---:|---:|---:|---:|"
-    table = "\n".join([head, *(f"| {' | '.join(row)} |" for row in rows)])
+    head = "| configuration | NAND2 equivalents | area, µm² | flip-flops | ROM, bits (left out) |"
+    table = "\n".join([head, "|---|---:|---:|---:|---:|", *(f"| {' | '.join(row)} |" for row in rows)])
     tools = f"Tools: yosys {version()} with its abc; cells: osu035_stdcells (0.35 µm), from qflow-tech-osu035."
     text = DOCUMENT.read_text()
     before, rest = text.split(MARKERS[0])

@@ -10,6 +10,7 @@
 //! | `datapath/clamp.rs`        | `blysk_clamp.sv`                            |
 //! | `datapath/ranks.rs`        | `blysk.sv`, `blysk_delay.sv`                |
 //! | handshake of the simulator | `blysk_handshake.sv`                        |
+//! | no arithmetic: other names | `blysk_axis.sv`                             |
 //!
 //! Widths and constants of one configuration are in a package that is generated beside them.
 

@@ -37,7 +37,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME", value_parser = module_name)]
     dut: Option<String>,
     /// Cycles from a request to its answer in your own module, where they are not the pipeline's.
-    #[arg(long, value_name = "CYCLES", requires = "dut", value_parser = clap::value_parser!(u32).range(0..=MOST_LATENCY))]
+    #[arg(long, value_name = "CYCLES", requires = "dut")]
+    #[arg(value_parser = clap::value_parser!(u32).range(0..=MOST_LATENCY))]
     dut_latency: Option<u32>,
     /// What the ports of your own module are called, and which it has: {"ports": {"clk_i": "clk", "rst_i": "!rst_n",
     /// "in_ready_o": null}, "tied": {"scan": 0}}; ! is active low, null not there.

@@ -101,7 +101,8 @@ fn point(line: &str) -> Option<(String, u64)> {
     let (fields, count) = line.strip_prefix("C '")?.rsplit_once("' ")?;
     let fields: BTreeMap<&str, &str> = fields.split('\x01').filter_map(|field| field.split_once('\x02')).collect();
     let field = |name| fields.get(name).copied().unwrap_or_default();
-    let name = format!("{} {}:{} {} {}", field("page"), field("f"), field("l"), field("h"), field("o"));
+    let place = format!("{}:{}:{}", field("f"), field("l"), field("n"));
+    let name = format!("{} {place} {} {}", field("page"), field("h"), field("o"));
     Some((name, count.trim().parse().ok()?))
 }
 

@@ -1,4 +1,5 @@
-//! `blysk rom`: words that unpack, by the printed layout, to the fields printed beside them; and its images, as others read them.
+//! `blysk rom`: words that unpack, by the printed layout, to the fields printed beside them; and its images, as others
+//! read them.
 
 use std::io::Write;
 use std::path::Path;

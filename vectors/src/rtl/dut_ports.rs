@@ -4,8 +4,9 @@
 //! {"ports": {"clk_i": "clk", "rst_i": "!reset_n", "in_ready_o": null}, "tied": {"scan_enable": 0}}
 //! ```
 //!
-//! A port that the map does not name has the pipeline's name; `tied` has inputs of all zeros or all ones. `!` says that the port is active low, `null` that the
-//! module has none. Without `in_ready_o`, `out_ready_i` is an enable, without which nothing moves.
+//! A port that the map does not name has the pipeline's name; `tied` has inputs of all zeros or all ones. `!` says that
+//! the port is active low, `null` that the module has none. Without `in_ready_o`, `out_ready_i` is an enable, without
+//! which nothing moves.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

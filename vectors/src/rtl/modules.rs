@@ -6,8 +6,7 @@
 use hw_model::names::{self, NameError};
 use hw_model::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP, WRAPPER};
 
-use super::files::CORE;
-use super::wrappers;
+use super::files::DESCRIPTIONS;
 use crate::manifest::ROM;
 
 /// The prefix of all names, and the module under test.
@@ -100,7 +99,7 @@ impl Modules {
 
     /// The files of the hardware, but those of the vectors and their testbench.
     pub(super) fn files(&self) -> impl Iterator<Item = String> {
-        let renamed = KNOWN.iter().chain([&CORE]).chain(&wrappers::NAMES).map(|name| self.file(name));
+        let renamed = KNOWN.iter().chain(&DESCRIPTIONS).map(|name| self.file(name));
         renamed.chain(self.rom_image())
     }
 }

@@ -4,7 +4,7 @@ use askama::Template;
 use hw_model::datapath::Datapath;
 use hw_model::rtl::WRAPPER;
 
-use super::{image, module, with_axis};
+use super::parts::{image, module, with_axis};
 use crate::rtl::emission::Emission;
 use crate::rtl::sources::Sources;
 

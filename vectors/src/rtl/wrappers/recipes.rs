@@ -3,8 +3,9 @@
 use askama::Template;
 use hw_model::rtl::TOP;
 
-use super::pipeline;
+use super::parts::pipeline;
 use crate::rtl::emission::Emission;
+use crate::rtl::files;
 use crate::rtl::sources::Sources;
 
 /// The constraints: the clock, and half of its period for what is outside.
@@ -41,7 +42,7 @@ struct Recipe<'a> {
 
 impl<'a> Recipe<'a> {
     fn of(sources: &Sources<'a>) -> Self {
-        let (top, constraints) = (sources.modules.file(TOP), sources.modules.file(super::SDC));
+        let (top, constraints) = (sources.modules.file(TOP), sources.modules.file(files::SDC));
         Self { command: sources.command, top, files: pipeline(sources), constraints }
     }
 }

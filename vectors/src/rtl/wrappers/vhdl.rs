@@ -3,7 +3,7 @@
 use askama::Template;
 use hw_model::rtl::TOP;
 
-use super::image;
+use super::parts::image;
 use crate::rtl::emission::Emission;
 use crate::rtl::sources::Sources;
 
