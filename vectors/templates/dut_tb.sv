@@ -257,11 +257,11 @@ module blysk_tb;
       end
     end
     if (count == 0) begin
-      $display("FAIL [[ name.in_ready ]] was never 1 in %0d cycles: no request was taken; is [[ name.reset ]] active high?",
+      $display("FAIL [[ name.in_ready ]] was never 1 in %0d cycles: no request was taken; [[ name.reset ]]?",
         HISTORY);
       stop;
     end else if (HAS_OUT_VALID && flags == 0) begin
-      $display("FAIL [[ name.out_valid ]] was never 1 in %0d cycles after %0d requests; is [[ name.reset ]] active high, is [[ name.in_valid ]] the right port?",
+      $display("FAIL [[ name.out_valid ]] was never 1 in %0d cycles after %0d requests; [[ name.reset ]], and is [[ name.in_valid ]] the right port?",
         HISTORY, count);
       stop;
     end else if (unknown == HISTORY) begin

@@ -191,6 +191,17 @@ impl DutPorts {
         }
     }
 
+    /// The question to ask about the reset, where nothing comes.
+    pub(super) fn reset(&self) -> String {
+        match self.ports.get("rst_i") {
+            Some(Some(own)) => {
+                let level = if own.active_low { "low" } else { "high" };
+                format!("is {} active {level}", self.shown("rst_i"))
+            }
+            _ => "does the module need a reset".to_owned(),
+        }
+    }
+
     /// The connections of an instance, a line each, to the testbench's signals.
     pub(super) fn connections(&self) -> Vec<String> {
         let connected = self.ports.iter().filter_map(|(port, own)| {

@@ -86,7 +86,7 @@ impl Has {
     }
 }
 
-/// What messages call the ports.
+/// What messages call the ports; of the reset, the question to ask.
 struct Names {
     clock: String,
     reset: String,
@@ -102,7 +102,7 @@ impl Names {
     fn of(ports: &DutPorts) -> Self {
         Self {
             clock: ports.shown("clk_i"),
-            reset: ports.shown("rst_i"),
+            reset: ports.reset(),
             in_valid: ports.shown("in_valid_i"),
             in_ready: ports.shown("in_ready_o"),
             out_valid: ports.shown("out_valid_o"),
