@@ -107,12 +107,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);
+    let latency = emission.dut.as_ref().and_then(|dut| dut.latency).unwrap_or(manifest.hardware.latency);
     let dut = if modules.is_own() { "" } else { " DUT=FILE" };
     writeln!(
         out,
-        "{place}: module {}, latency {} cycles, {} vectors; try: make -C {place} icarus{dut}",
+        "{place}: module {}, latency {latency} cycles, {} vectors; try: make -C {place} icarus{dut}",
         modules.dut(),
-        manifest.hardware.latency,
         manifest.counts.vectors,
     )?;
     Ok(Outcome::Good)
