@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth mutants mutants-rust fuzz \
+.PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth gates mutants mutants-rust fuzz \
 	alterations c header install uvm clean help
 
 CARGO ?= cargo
@@ -130,6 +130,9 @@ formal-quick: setup-all ## the handshake alone, and that the proof finds bugs pl
 
 synth: setup-all ## synthesise every preset for two FPGAs, and write the table of docs/SYNTHESIS.md
 	@scripts/synth.py --blysk "$(BLYSK)" --out $(RESULTS)/synth
+
+gates: setup-all ## the area of every preset in the cells of a free library, and the table of docs/SYNTHESIS.md
+	@scripts/gates.py --blysk "$(BLYSK)"
 
 mutants: setup ## wrong RTL, made on purpose, under the emitted vectors; takes long
 	BLYSK_JUDGED=all $(CARGO) test --locked --quiet --release --package blysk-tests --test equivalent_mutants \

@@ -13,7 +13,7 @@ use std::ffi::OsStr;
 
 use thiserror::Error;
 
-use crate::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP};
+use crate::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP, WRAPPER};
 
 /// Characters of a name: files get longer names from it, and file systems end at 255.
 const LONGEST: usize = 100;
@@ -72,7 +72,7 @@ pub fn module(name: &str) -> Result<(), NameError> {
     if let Some((_, tool)) = KEPT_BY_TOOLS.iter().find(|(word, _)| *word == name) {
         return Err(NameError::Tool(name.to_owned(), tool));
     }
-    let files = SOURCES.iter().map(|&(file, _)| file).chain([PACKAGE, TESTBENCH]);
+    let files = SOURCES.iter().map(|&(file, _)| file).chain([PACKAGE, TESTBENCH, WRAPPER.0]);
     let taken = files.filter_map(|file| file.strip_suffix(".sv")).any(|taken| taken == name);
     if taken && name != TOP { Err(NameError::Bundle(name.to_owned())) } else { Ok(()) }
 }

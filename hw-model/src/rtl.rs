@@ -10,6 +10,7 @@
 //! | `datapath/clamp.rs`        | `blysk_clamp.sv`                            |
 //! | `datapath/ranks.rs`        | `blysk.sv`, `blysk_delay.sv`                |
 //! | handshake of the simulator | `blysk_handshake.sv`                        |
+//! | no arithmetic: other names | `blysk_axis.sv`                             |
 //!
 //! Widths and constants of one configuration are in a package that is generated beside them.
 
@@ -31,7 +32,10 @@ pub const PACKAGE: &str = "blysk_pkg.sv";
 /// The file of the testbench, which is generated.
 pub const TESTBENCH: &str = "blysk_tb.sv";
 
-/// Every source file, in an order in which each names only what stands before it.
+/// The pipeline with the names of AXI4-Stream, around the top module.
+pub const WRAPPER: Source = source!("blysk_axis.sv");
+
+/// Every source file of the pipeline, in an order in which each names only what stands before it.
 pub const SOURCES: [Source; 10] = [
     source!("blysk_round_shift.sv"),
     source!("blysk_delay.sv"),

@@ -17,11 +17,12 @@
 //!
 //! [`pipeline`] is one clock edge after another, [`run`](mod@run) drives it with a stimulus, [`trace`] and [`waves`]
 //! write what is seen, [`agreement`] holds another simulation's log against it, and [`stream`] goes over many cycles in
-//! which nothing stalls. Nothing between two registers is computed here. The golden model for a testbench in another
-//! language is [`vectors::evaluate`].
+//! which nothing stalls; [`coverage`] tells what vectors exercise. Nothing between two registers is computed here. The
+//! golden model for a testbench in another language is [`vectors::evaluate`].
 #![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod agreement;
+pub mod coverage;
 pub mod pipeline;
 pub mod run;
 pub mod stream;

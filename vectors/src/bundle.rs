@@ -9,7 +9,7 @@ use hw_model::datapath::Signals;
 use hw_model::design::Design;
 use thiserror::Error;
 
-use crate::case::{Sample, Strategy};
+use crate::case::{Case, Sample, Strategy};
 use crate::checksum::Checksum;
 use crate::fault_table::write_faults;
 use crate::faults::{Compact, OneByOne, Workers};
@@ -22,6 +22,7 @@ use crate::manifest::{
 use crate::memory_file::{Header, write_header, write_word};
 use crate::negative_control::{Flip, NegativeControl};
 use crate::packing::WordLayout;
+use crate::rom_image;
 use crate::rtl::files::{EXPONENTS, STAGES};
 use crate::stimulus::Stimulus;
 use crate::table::TableWriter;
@@ -58,6 +59,7 @@ pub enum BundleError {
 fn advice(strategy: Strategy) -> &'static str {
     match strategy {
         Strategy::Exhaustive => "use a narrower input format or fewer exponents, or a sample",
+        Strategy::List => "make several bundles",
         _ => "ask for a lower count, or several bundles with different seeds",
     }
 }
@@ -117,11 +119,35 @@ impl<'a> Bundle<'a> {
             Sweep::Compact.within(inputs(design), design.config().input)?;
         }
         let stimulus = Stimulus::with_workers(design, strategy, count, seed, workers);
+        let requested = (!strategy.counts_itself()).then_some(count);
+        Self::of_stimulus(design, stimulus, strategy, requested, seed, command)
+    }
+
+    /// The cases of a list of the user's own, in their order. The `seed` draws the wrong word of the negative control.
+    ///
+    /// # Errors
+    /// When there are no cases, or more than [`MAX_VECTORS`].
+    pub fn of_cases(design: &'a Design, cases: &[Case], seed: u64, command: &str) -> Result<Self, BundleError> {
+        let stimulus = Stimulus::of_cases(design, cases, seed);
+        Self::of_stimulus(design, stimulus, Strategy::List, None, seed, command)
+    }
+
+    fn of_stimulus(
+        design: &'a Design,
+        stimulus: Stimulus<'a>,
+        strategy: Strategy,
+        requested: Option<u64>,
+        seed: u64,
+        command: &str,
+    ) -> Result<Self, BundleError> {
         let len = stimulus.len();
+        if len == 0 {
+            return Err(BundleError::NoVectors);
+        }
         if len > u128::from(MAX_VECTORS) {
             return Err(BundleError::TooMany { strategy, count: len });
         }
-        let requested = if strategy.counts_itself() { len as u64 } else { count };
+        let requested = requested.unwrap_or(len as u64);
         let (command, watcher) = (command.to_owned(), Watcher(&|_| {}));
         Ok(Self { design, stimulus, strategy, requested, seed, command, watcher })
     }
@@ -260,13 +286,8 @@ impl<'a> Bundle<'a> {
 
     /// The ROM image, as the file `name`.
     pub(crate) fn stage_rom(&self, set: &mut OutputSet, name: &str) -> Result<Checksum, OutputError> {
-        let rom = self.design.rom();
-        let layout = &WordLayout::rom(rom.layout());
         let mut file = Begun::new(set, name)?;
-        file.header("ROM image", layout, rom.depth() as u64, &self.command)?;
-        for row in rom.rows() {
-            file.word(layout, &rom.layout().pack(row))?;
-        }
+        rom_image::mem(self.design, &self.command, &mut file.0).map_err(|cause| file.0.error(cause))?;
         file.keep(set)
     }
 

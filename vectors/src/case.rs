@@ -64,16 +64,18 @@ pub enum Strategy {
     Random,
     /// Every address with every x; the count is not asked.
     Exhaustive,
+    /// A list of the user's own ([`crate::evaluate::questions()`]); the count is not asked.
+    List,
 }
 
 impl Strategy {
-    /// Every strategy, the default first.
+    /// Every strategy that chooses by itself, the default first: all but [`Strategy::List`].
     pub const ALL: [Self; 6] = [Self::Mixed, Self::Compact, Self::Corners, Self::Even, Self::Random, Self::Exhaustive];
 
     /// True where the strategy itself says how many cases there are.
     #[must_use]
     pub const fn counts_itself(self) -> bool {
-        matches!(self, Self::Compact | Self::Exhaustive)
+        matches!(self, Self::Compact | Self::Exhaustive | Self::List)
     }
 
     /// The name used on the command line and in files.
@@ -86,6 +88,7 @@ impl Strategy {
             Self::Even => "even",
             Self::Random => "random",
             Self::Exhaustive => "exhaustive",
+            Self::List => "list",
         }
     }
 }

@@ -49,6 +49,8 @@ pub enum Kind {
     Random,
     /// One of all inputs, in order.
     Exhaustive,
+    /// One of the user's own list.
+    Listed,
 }
 
 impl fmt::Display for Kind {
@@ -76,6 +78,7 @@ impl fmt::Display for Kind {
             Self::Even => "even",
             Self::Random => "random",
             Self::Exhaustive => "exhaustive",
+            Self::Listed => "listed",
         };
         f.pad(name)
     }

@@ -45,6 +45,7 @@ pub mod packing;
 pub mod progress;
 mod records;
 pub mod reference;
+pub mod rom_image;
 pub mod rtl;
 pub mod stimulus;
 pub mod stimulus_file;

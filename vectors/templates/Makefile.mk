@@ -5,13 +5,16 @@
 #   make control                a corrupted vector must FAIL, at that vector
 #   make lint                   both tools, all warnings, of the RTL and of the testbench
 #   make waves                  run in Icarus and dump waves.vcd; gtkwave waves.gtkw shows it
+#   make verilog2005            all modules in one file of Verilog-2005, [[ sources.modules.dut() ]]_2005.v, by Yosys
+#   make gates LIBERTY=FILE     area in the cells of a library, by Yosys, and in NAND2 gates; the ROM is left out,
+#                               and with ROM=gates it is made of gates too
 #   make clean
 #
 # Options of the testbench go into ARGUMENTS: make icarus ARGUMENTS="+seed=7 +log=dut.csv".
 
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
-.PHONY: icarus verilator control lint waves clean always
+.PHONY: icarus verilator control lint waves verilog2005 gates clean always
 
 TOP       = [[ sources.modules.dut() ]]
 RTL       = [[ rtl.join(" ") ]]
@@ -23,6 +26,11 @@ RTL      += $(DUT)
 VERILATOR ?= verilator
 IVERILOG  ?= iverilog
 VVP       ?= vvp
+YOSYS     ?= yosys
+LIBERTY   ?=
+# What the library calls a NAND gate of two inputs.
+NAND2     ?= NAND2X1
+ROM       ?= left out
 ARGUMENTS ?=
 BUILD     ?= build
 
@@ -72,5 +80,21 @@ lint:
 waves: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp +waves=waves.vcd $(ARGUMENTS) | $(JUDGE)
 
+verilog2005: $(BUILD)/yosys.sources
+	$(YOSYS) -q -p "read_verilog -sv $(RTL); hierarchy -check -top $(TOP); proc; flatten; opt_clean; \
+	  write_verilog -noattr $(TOP)_2005.v"
+
+gates: $(BUILD)/yosys.sources
+	@test -f "$(LIBERTY)" || { echo "say where the cells are: make gates LIBERTY=FILE" >&2; exit 1; }
+	$(YOSYS) -l $(BUILD)/gates.log -q -p "read_verilog -sv $(RTL); $(if $(filter gates,$(ROM)),,blackbox blysk_rom;) \
+	  synth -flatten -top $(TOP); dfflibmap -liberty $(LIBERTY); abc -liberty $(LIBERTY); opt_clean; \
+	  tee -o $(BUILD)/gates.txt stat -liberty $(LIBERTY)"
+	@awk -v cell='$(NAND2)' ' \
+	  FILENAME == ARGV[1] { if ($$0 ~ "cell *[(] *\"?" cell "\"? *[)]") inside = 1; \
+	    if (inside && !nand && /area *:/) { gsub(/[^0-9.]/, ""); nand = $$0 } next } \
+	  /Chip area/ { area = $$NF } \
+	  END { if (nand <= 0 || area <= 0) { print "no area, or no cell " cell " in the library"; exit 1 } \
+	    printf "area %.0f, %.0f NAND2 equivalents (ROM: $(ROM))\n", area, area / nand }' $(LIBERTY) $(BUILD)/gates.txt
+
 clean:
-	rm -rf $(BUILD) waves.vcd
+	rm -rf $(BUILD) waves.vcd $(TOP)_2005.v

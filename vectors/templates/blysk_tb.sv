@@ -105,17 +105,7 @@ module blysk_tb;
     ended = 1'b1;
   endtask
 
-  // `known` is the exclusive or of the word's bits, which is x where one of them is.
-  task automatic complete(input logic unwritten, input logic known, input string name, input integer index);
-    if (ended) begin
-    end else if (known === 1'bx) begin
-      $display("FAIL %0s: word %0d has an x or z in it", name, index);
-      stop;
-    end else if (unwritten !== 1'b0) begin
-      $display("FAIL %0s: word %0d is missing; the file is not there or is too short", name, index);
-      stop;
-    end
-  endtask
+<% include "tb_complete.sv" %>
 
   initial begin
     rst = 1'b1; in_valid = 1'b0; address = '0; x = '0; out_ready = 1'b0;
@@ -180,23 +170,10 @@ module blysk_tb;
   end
 
   // ---- Random numbers: xorshift, the same in every simulator ----------------------------------------
-  task automatic draw;
-    random = random ^ (random << 13);
-    random = random ^ (random >> 17);
-    random = random ^ (random << 5);
-  endtask
+<% include "tb_draw.sv" %>
 
   // ---- Failures -------------------------------------------------------------------------------------
-  function automatic real value(input logic [63:0] bits, input integer width, input integer is_signed,
-                                input integer fraction);
-    logic [62:0] magnitude;
-    magnitude = bits[62:0];
-    if (is_signed != 0 && bits[width-1]) magnitude = 63'((~bits + 64'd1) & ((64'd1 << width) - 64'd1));
-    value = $itor(magnitude[61:31]) * 2147483648.0 + $itor(magnitude[30:0])
-        + (magnitude[62] ? 4611686018427387904.0 : 0.0);
-    if (is_signed != 0 && bits[width-1]) value = -value;
-    value = value / (2.0 ** fraction);
-  endfunction
+<% include "tb_value.sv" %>
 
   task automatic fail(input integer index, input logic load, input string where,
                       input logic [63:0] got, input logic [63:0] wanted, input integer width,

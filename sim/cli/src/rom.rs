@@ -4,22 +4,25 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use anyhow::bail;
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::quantise::{decimal, real};
 use hw_model::rom::{Field, Place};
+use vectors::rom_image::{ImageFormat, rom_image};
 
 use super::configuration::Configuration;
 use super::out::{Out, Outcome};
 use super::output;
-use super::table::{Cell, Format, Rows};
+use super::table::{Cell, Format as TableFormat, Rows};
 
-/// Print the ROM: the layout of a word, and every word with its fields.
+/// Print the ROM: the layout of a word, and every word with its fields; or the ROM's image for a tool.
 ///
-/// The table shows words and real values; csv and json also each field's integer.
+/// The table shows words and real values; csv and json also each field's integer. The images are for $readmemh (mem),
+/// Quartus (hex: Intel HEX with addresses in words; mif) and Vivado's Block Memory Generator (coe).
 #[derive(ClapArgs)]
 #[command(after_help = "Example: blysk rom --preset compact --exponents 1,2,64\n         \
+                        blysk rom --preset compact --format mif > rom.mif\n         \
                         blysk rom --config mine.json --format csv --out roms")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -30,15 +33,77 @@ pub(super) struct Args {
     /// How to print the words and their fields.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
-    /// Also write rom.csv and rom.json to this directory; - prints, and writes none.
+    /// Also write rom.csv and rom.json to this directory; - prints, and writes none. Of an image, rom.FORMAT is
+    /// written there and not printed.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
+/// What is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// For people, at most 100 columns wide.
+    #[default]
+    Table,
+    /// Comma-separated values with a header.
+    Csv,
+    /// An array of objects.
+    Json,
+    /// An image for $readmemh.
+    Mem,
+    /// An image in Intel HEX, addresses counted in words, as Quartus does.
+    Hex,
+    /// An image as Memory Initialization File (Quartus).
+    Mif,
+    /// An image as coefficient file (Vivado).
+    Coe,
+}
+
+impl Format {
+    const fn kind(self) -> Result<TableFormat, ImageFormat> {
+        match self {
+            Self::Table => Ok(TableFormat::Table),
+            Self::Csv => Ok(TableFormat::Csv),
+            Self::Json => Ok(TableFormat::Json),
+            Self::Mem => Err(ImageFormat::Mem),
+            Self::Hex => Err(ImageFormat::Hex),
+            Self::Mif => Err(ImageFormat::Mif),
+            Self::Coe => Err(ImageFormat::Coe),
+        }
+    }
+}
+
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
-    let addresses = addresses(&design, args.exponents.as_ref())?;
-    let rows = all_fields(&design, &addresses);
+    match args.format.kind() {
+        Ok(format) => tables(args, &design, format, out),
+        Err(format) => image(args, &design, format, out),
+    }
+}
+
+/// The image of the whole ROM, printed or as a file.
+fn image(args: &Args, design: &Design, format: ImageFormat, out: &mut Out) -> anyhow::Result<Outcome> {
+    if args.exponents.is_some() {
+        bail!("an image has every word of the ROM; leave --exponents out, or say --format table, csv or json");
+    }
+    let command = format!("blysk rom {} --format {format}", args.configuration.option());
+    let image = rom_image(design, format, &command)?;
+    let Some(directory) = args.out.as_ref().filter(|path| !output::is_standard_output(path)) else {
+        out.write_all(&image)?;
+        return Ok(Outcome::Good);
+    };
+    let name = format!("rom.{format}");
+    let mut set = output::set(directory, "rom", &args.configuration.files(), [&name])?;
+    set.write(&name, &image)?;
+    set.commit()?;
+    let (depth, width) = (design.rom().depth(), design.rom().layout().word_width());
+    writeln!(out, "{}: {depth} words of {width} bits", directory.join(name).display())?;
+    Ok(Outcome::Good)
+}
+
+fn tables(args: &Args, design: &Design, format: TableFormat, out: &mut Out) -> anyhow::Result<Outcome> {
+    let addresses = addresses(design, args.exponents.as_ref())?;
+    let rows = all_fields(design, &addresses);
     let directory = args.out.as_ref().filter(|path| !output::is_standard_output(path));
     let names = ["rom.csv", "rom.json"];
     // Files first: nothing is printed where they cannot be written, and `| head` does not stop them.
@@ -52,15 +117,15 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         set.write(object, &json)?;
         set.commit()?;
     }
-    if args.format == Format::Table {
-        layout(&design).print(out, args.format, 6)?;
+    if format == TableFormat::Table {
+        layout(design).print(out, format, 6)?;
         writeln!(out)?;
-        for_people(&design, &addresses).print(out, args.format, 6)?;
+        for_people(design, &addresses).print(out, format, 6)?;
         let rom = design.rom();
         let (depth, width) = (rom.depth(), rom.layout().word_width());
         writeln!(out, "\n{depth} words of {width} bits, {} bits in all", rom.bits())?;
     } else {
-        rows.print(out, args.format, 17)?;
+        rows.print(out, format, 17)?;
     }
     Ok(Outcome::Good)
 }

@@ -7,10 +7,10 @@ use anyhow::Context;
 use clap::Args as ClapArgs;
 use hw_model::names::{self, NameError};
 use hw_model::rtl::TOP;
-use vectors::rtl::{Modules, REGISTER_CHECKER, register_checker};
-use vectors::{Bundle, Strategy, rtl};
+use vectors::rtl::{self, CLOCK_MHZ, Dut, DutPorts, Emission, Modules, REGISTER_CHECKER, register_checker};
 
 use super::bar::Bar;
+use super::choice::Choice;
 use super::configuration::Configuration;
 use super::out::{Out, Outcome};
 use super::output;
@@ -40,15 +40,30 @@ pub(super) struct Args {
     /// that has it; needs the library libblysk.
     #[arg(long, conflicts_with = "dut")]
     checker: bool,
-    /// How vectors are chosen: mixed, corners, even, random or exhaustive.
-    #[arg(long, default_value_t)]
-    strategy: Strategy,
-    /// How many vectors the bundle has.
-    #[arg(long, default_value_t = 4096)]
-    count: u64,
-    /// Seed of the random vectors.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    /// Cycles from a request to its answer in your own module, where they are not the pipeline's.
+    #[arg(long, value_name = "CYCLES", requires = "dut")]
+    #[arg(value_parser = clap::value_parser!(u32).range(0..=MOST_LATENCY))]
+    dut_latency: Option<u32>,
+    /// What the ports of your own module are called, and which it has: {"ports": {"clk_i": "clk", "rst_i": "!rst_n",
+    /// "in_ready_o": null}, "tied": {"scan": 0}}; ! is active low, null not there.
+    #[arg(long, value_name = "FILE", requires = "dut")]
+    ports: Option<PathBuf>,
+    /// The clock in the constraints (SDC) that are written for synthesis, in MHz.
+    #[arg(long, value_name = "MHZ", default_value_t = CLOCK_MHZ, value_parser = clock)]
+    clock_mhz: f64,
+    /// Put the ROM's words into the source, for tools that read no memory files.
+    #[arg(long, conflicts_with = "dut")]
+    rom_in_source: bool,
+    #[command(flatten)]
+    choice: Choice,
+}
+
+/// The longest latency of a module under test: its testbench keeps what is under way.
+const MOST_LATENCY: i64 = 1 << 16;
+
+fn clock(text: &str) -> Result<f64, String> {
+    let right = |mhz: &f64| (0.001..=100_000.0).contains(mhz);
+    text.parse().ok().filter(right).ok_or_else(|| "write a clock in MHz from 0.001 to 100000, such as 125".to_owned())
 }
 
 fn module_name(text: &str) -> Result<String, NameError> {
@@ -56,41 +71,58 @@ fn module_name(text: &str) -> Result<String, NameError> {
 }
 
 impl Args {
+    /// How the module under test differs from the pipeline, where something is said of that.
+    fn dut(&self) -> anyhow::Result<Option<Dut>> {
+        if self.dut_latency.is_none() && self.ports.is_none() {
+            return Ok(None);
+        }
+        let ports = self.ports.as_ref().map(|path| DutPorts::read(path)).transpose()?.unwrap_or_default();
+        Ok(Some(Dut { latency: self.dut_latency, ports }))
+    }
+
     fn command(&self) -> String {
-        let Self { prefix, dut, checker, strategy, count, seed, .. } = self;
+        let Self { prefix, dut, choice, .. } = self;
         let configuration = self.configuration.option();
         let dut = dut.as_ref().filter(|dut| *dut != prefix).map(|dut| format!(" --dut {dut}")).unwrap_or_default();
         let prefix = if prefix == TOP { String::new() } else { format!(" --prefix {prefix}") };
-        let checker = if *checker { " --checker" } else { "" };
-        format!("blysk rtl {configuration}{prefix}{dut}{checker} --strategy {strategy} --count {count} --seed {seed}")
+        let latency = self.dut_latency.map(|cycles| format!(" --dut-latency {cycles}")).unwrap_or_default();
+        let ports = self.ports.as_ref().map(|path| format!(" --ports {}", names::shell(path))).unwrap_or_default();
+        let clock =
+            if self.clock_mhz == CLOCK_MHZ { String::new() } else { format!(" --clock-mhz {}", self.clock_mhz) };
+        let checker = if self.checker { " --checker" } else { "" };
+        let rom = if self.rom_in_source { " --rom-in-source" } else { "" };
+        format!("blysk rtl {configuration}{prefix}{dut}{latency}{ports}{checker}{rom}{clock} {}", choice.options())
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let modules = Modules::new(&args.prefix, args.dut.as_deref()).context("--dut")?;
+    let emission = Emission { modules, rom_in_source: args.rom_in_source, dut: args.dut()?, clock_mhz: args.clock_mhz };
+    let modules = &emission.modules;
     let design = args.configuration.design()?;
     let command = args.command();
-    let inputs = args.configuration.files();
+    let maps = args.ports.iter().cloned().collect();
+    let inputs = [args.configuration.files(), args.choice.files(), maps].concat();
     let checker = args.checker.then(|| modules.file(REGISTER_CHECKER));
-    let names = rtl::names(&modules, args.strategy).into_iter().chain(checker.clone());
+    let names = rtl::names(&emission, args.choice.strategy()).into_iter().chain(checker.clone());
     let mut set = output::set(&args.out, "rtl", &inputs, names)?;
-    let bundle = Bundle::new(&design, args.strategy, args.count, args.seed, &command)?;
+    let bundle = args.choice.bundle(&design, &command)?;
     // Every vector goes to the testbench's files and to those of its registers.
     let bar = Bar::counting(Some(2 * bundle.vector_count()), "lines");
     let watcher = |vectors| bar.advance(vectors);
-    let manifest = rtl::stage(&bundle.watched(&watcher), &modules, &command, &mut set)?;
+    let manifest = rtl::stage(&bundle.watched(&watcher), &emission, &command, &mut set)?;
     if let Some(name) = checker {
-        set.write(&name, register_checker(&design, &modules, &command))?;
+        set.write(&name, register_checker(&design, modules, &command))?;
     }
     bar.finish();
     set.commit()?;
     let place = names::shell(&args.out);
+    let latency = emission.dut.as_ref().and_then(|dut| dut.latency).unwrap_or(manifest.hardware.latency);
     let dut = if modules.is_own() { "" } else { " DUT=FILE" };
     writeln!(
         out,
-        "{place}: module {}, latency {} cycles, {} vectors; try: make -C {place} icarus{dut}",
+        "{place}: module {}, latency {latency} cycles, {} vectors; try: make -C {place} icarus{dut}",
         modules.dut(),
-        manifest.hardware.latency,
         manifest.counts.vectors,
     )?;
     Ok(Outcome::Good)

@@ -9,7 +9,7 @@ use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::names;
 use vectors::configuration_file;
-use vectors::rtl::Modules;
+use vectors::rtl::Emission;
 use vectors::text_file;
 use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
@@ -298,14 +298,14 @@ impl Made {
 
 /// The names of the files of [`hardware`].
 fn hardware_names() -> Vec<String> {
-    rtl::names(&Modules::default(), Strategy::Mixed)
+    rtl::names(&Emission::default(), Strategy::Mixed)
 }
 
 /// The RTL of a design with its testbench and vectors.
 fn hardware(design: &Design, args: &Args, set: &mut OutputSet) -> Result<(), BundleError> {
     let command = args.command();
     let bundle = Bundle::new(design, Strategy::Mixed, args.count, args.seed, &command)?;
-    rtl::stage(&bundle, &Modules::default(), &command, set).map(drop)
+    rtl::stage(&bundle, &Emission::default(), &command, set).map(drop)
 }
 
 /// How many files stand beside a certificate that were written with it, each as it was then; nothing where it stands

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use hw_model::design::Design;
 use hw_model::rtl::{SOURCES, TOP};
 use serde_json::Value;
-use vectors::rtl::{self, Modules, PACKAGE};
+use vectors::rtl::{self, Emission, PACKAGE};
 use vectors::whole_file::Scratch;
 use vectors::{Bundle, OutputSet, Strategy};
 
@@ -26,7 +26,7 @@ pub(super) fn counts(design: &Design) -> anyhow::Result<[u64; COUNTS.len()]> {
     let scratch = Scratch::new().context("cannot make a directory for yosys")?;
     let directory = scratch.path();
     let mut set = OutputSet::create(directory)?;
-    rtl::stage(&Bundle::new(design, Strategy::Mixed, 1, 1, "")?, &Modules::default(), "", &mut set)?;
+    rtl::stage(&Bundle::new(design, Strategy::Mixed, 1, 1, "")?, &Emission::default(), "", &mut set)?;
     set.commit()?;
     let sources = SOURCES.map(|(name, _)| name).join(" ");
     let script =

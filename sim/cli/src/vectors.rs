@@ -3,13 +3,16 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::bail;
 use clap::{Args as ClapArgs, ValueEnum};
-use rayon::prelude::*;
-use vectors::faults::Workers;
-use vectors::{Bundle, Manifest, Strategy, WholeFile, bundle};
+use sim::coverage::Coverage;
+use vectors::output_text::json;
+use vectors::{Bundle, Manifest, WholeFile, bundle};
 
 use super::bar::Bar;
+use super::choice::Choice;
 use super::configuration::Configuration;
+use super::coverage;
 use super::out::{Out, Outcome};
 use super::output;
 use super::table::write_folded;
@@ -22,10 +25,11 @@ use vectors::progress::Progress;
 /// one wrong word: a testbench that is given it must fail. The same command writes the same bytes.
 ///
 /// Strategy compact looks at every input for the fewest vectors that show every fault of the fault model, and
-/// writes faults.csv; that takes minutes.
+/// writes faults.csv; that takes minutes. --cases takes your own list of (n, x).
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk vectors --preset paper --count 4096 --seed 1 --out vectors\n          \
                         blysk vectors --config small.json --strategy compact --out fewest\n          \
+                        blysk vectors --preset paper --cases mine.csv --out mine\n          \
                         blysk vectors --preset paper --count 64 --format csv --out -")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -36,16 +40,12 @@ pub(super) struct Args {
     /// Which files to write.
     #[arg(long, value_enum, default_value_t)]
     format: Shape,
-    /// How vectors are chosen: mixed, compact (as few as show every fault), corners, even, random or exhaustive
-    /// (every address with every x).
-    #[arg(long, default_value_t)]
-    strategy: Strategy,
-    /// How many vectors; compact and exhaustive settle that themselves.
-    #[arg(long, default_value_t = 4096)]
-    count: u64,
-    /// Seed of the random vectors, and of the wrong word of the negative control.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
+    #[command(flatten)]
+    choice: Choice,
+    /// Also write coverage.json, and print it: the bits of every register that changed, and those that cannot; the
+    /// classes of corners; regions under stalls and bubbles.
+    #[arg(long)]
+    coverage: bool,
 }
 
 /// The files that the command writes.
@@ -61,34 +61,46 @@ enum Shape {
 impl Args {
     /// What made the files: everything that determines their bytes, and not where they went.
     fn command(&self) -> String {
-        let Self { strategy, count, seed, .. } = self;
-        let configuration = self.configuration.option();
-        let count = match strategy {
-            Strategy::Compact => String::new(),
-            _ => format!(" --count {count}"),
-        };
-        format!("blysk vectors {configuration} --strategy {strategy}{count} --seed {seed}")
+        format!("blysk vectors {} {}", self.configuration.option(), self.choice.options())
     }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let design = args.configuration.design()?;
-    let Args { strategy, count, seed, .. } = *args;
     let command = args.command();
-    let inputs = args.configuration.files();
-    let bundle = || Bundle::with_workers(&design, strategy, count, seed, &command, &Threads);
+    let inputs = [args.configuration.files(), args.choice.files()].concat();
+    let bundle = || args.choice.bundle(&design, &command);
     if args.format == Shape::Csv {
         let file = WholeFile::apart_from(&inputs, &args.out)?;
+        if args.coverage {
+            bail!("--coverage is for --format files; coverage.json stands beside them");
+        }
         return table(&bundle()?, file, out);
     }
-    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, bundle::names(strategy))?;
+    let mut set = output::set(&args.out, bundle::COMMAND, &inputs, names(args))?;
     let bundle = bundle()?;
     let bar = Bar::counting(Some(bundle.vector_count()), "vectors");
     let watcher = |vectors| bar.advance(vectors);
-    let manifest = bundle.watched(&watcher).stage(&mut set)?;
+    let bundle = bundle.watched(&watcher);
+    let manifest = bundle.stage(&mut set)?;
     bar.finish();
+    let coverage = args.coverage.then(|| Coverage::of(&design, &bundle.samples().collect::<Vec<_>>(), manifest.seed));
+    match &coverage {
+        Some(coverage) => set.write(coverage::FILE, json(coverage)?)?,
+        // Of other vectors in the same directory.
+        None => set.obsolete(coverage::FILE),
+    }
     set.commit()?;
-    print(args, &manifest, out)
+    print(args, &manifest, out)?;
+    if let Some(coverage) = &coverage {
+        coverage::print(coverage, out)?;
+    }
+    Ok(Outcome::Good)
+}
+
+/// The files of the command.
+fn names(args: &Args) -> impl Iterator<Item = &'static str> {
+    bundle::names(args.choice.strategy()).chain(args.coverage.then_some(coverage::FILE))
 }
 
 /// Writes what `vectors.csv` of the bundle would hold, and nothing else.
@@ -102,7 +114,7 @@ fn table(bundle: &Bundle<'_>, file: WholeFile, out: &mut Out) -> anyhow::Result<
     Ok(Outcome::Good)
 }
 
-fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outcome> {
+fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<()> {
     let counts = &manifest.counts;
     writeln!(
         out,
@@ -117,24 +129,5 @@ fn print(args: &Args, manifest: &Manifest, out: &mut Out) -> anyhow::Result<Outc
     for note in &manifest.notes {
         write_folded(out, &format!("note: {note}"))?;
     }
-    Ok(Outcome::Good)
-}
-
-/// Every core, with a progress bar on standard error where that is a terminal.
-struct Threads;
-
-impl Workers for Threads {
-    fn run<T: Send>(&self, count: u32, job: impl Fn(u32) -> T + Sync) -> Vec<T> {
-        let bar = Bar::counting(Some(count.into()), "rows");
-        let results = (0..count)
-            .into_par_iter()
-            .map(|index| {
-                let result = job(index);
-                bar.advance(1);
-                result
-            })
-            .collect();
-        bar.finish();
-        results
-    }
+    Ok(())
 }

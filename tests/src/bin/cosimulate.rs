@@ -12,17 +12,20 @@
 use std::io::BufReader;
 use std::process::{ExitCode, Stdio};
 
+use blysk_tests::rtl::coverage::{self, Shares};
 use blysk_tests::rtl::faults::{FAULTS, Fault};
 use blysk_tests::rtl::simulators::{self, Simulator};
 use blysk_tests::rtl::workspace::{Emitted, copy, emit};
+use blysk_tests::rtl::wrappers;
 use blysk_tests::rtl::{Failure, failed};
-use blysk_tests::rtl::{fusesoc, netlist_parts, readers, rom_image, specialised, two_in_one, waves};
+use blysk_tests::rtl::{axis, fusesoc, in_source, netlist_parts, readers, rom_image, specialised, two_in_one, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets;
 use rayon::prelude::*;
 use sim::agreement::compare;
 use vectors::Strategy;
+use vectors::rtl::Modules;
 
 /// Random cycles in which every register of a preset is compared.
 const VERILATOR_CYCLES: u64 = 1_000_000;
@@ -95,6 +98,9 @@ const SCENES: [&str; 2] = ["close_up", "low_exponents"];
 const TWO_MULTIPLIERS: &str = r#"{"name": "quadratic", "method": "quadratic", "exponents": "1..=16",
     "input": "UQ1.15", "output": "UQ1.8"}"#;
 
+/// The pipeline beside a divider in one top module: another form, another depth.
+const CENTRED: &str = include_str!("../../../docs/examples/compact_12_bit.json");
+
 /// What was compared.
 #[derive(Clone, Copy, Default)]
 struct Totals {
@@ -140,6 +146,11 @@ impl Extent {
     /// The simulators of a preset, scene or example.
     fn simulators(self, name: &str, all: &[Simulator]) -> Vec<Simulator> {
         if self == Self::Everything || name == COVERING[0] { all.to_vec() } else { without_older(all) }
+    }
+
+    /// Requests that each of two pipelines gets through AXI4-Stream.
+    fn stream_results(self) -> u64 {
+        if self == Self::Everything { 50_000 } else { 2_000 }
     }
 
     /// Of a list of scenes or examples.
@@ -193,6 +204,9 @@ fn run(extent: Extent) -> Result<Totals, Failure> {
         let simulators = extent.simulators(preset.name, &simulators);
         let total = everything(&emitted, preset.name, &simulators, Some(VERILATOR_CYCLES))?;
         flows(&emitted, preset.name, &releases)?;
+        if extent == Extent::Everything {
+            covered(&emitted, preset.name, &simulators)?;
+        }
         Ok(total)
     });
     let scenes = extent.of(&SCENES).par_iter().map(|scene| {
@@ -222,6 +236,10 @@ fn run(extent: Extent) -> Result<Totals, Failure> {
     let schlick = presets::find("schlick").map_or_else(|| failed("no preset schlick"), |preset| design(preset.json))?;
     let together = two_in_one::check([("bright", &quadratic), ("dull", &schlick)], &simulators)?;
     println!("{:<14} two configurations in one design {together:>20} vectors", "--prefix");
+    let results = axis::check([("bright", &design(CENTRED)?), ("dull", &schlick)], extent.stream_results())?;
+    println!("{:<14} two configurations through AXI4-Stream {results:>14} results", "--prefix");
+    let in_source = in_source::check(&schlick, VECTORS, &simulators)?;
+    println!("{:<14} {in_source:>53} vectors", "--rom-in-source");
     planted(&simulators[0])?;
     Ok(total)
 }
@@ -245,6 +263,9 @@ fn everything(
 ) -> Result<Totals, Failure> {
     simulators::yosys_reads(&emitted.directory)?;
     readers::check(&emitted.directory).map_err(|error| Failure(format!("{name}: {error}")))?;
+    wrappers::check(&emitted.directory, &Modules::default()).map_err(|error| Failure(format!("{name}: {error}")))?;
+    let pass = wrappers::verilog_2005(&emitted.directory, emitted.design.datapath(), emitted.vectors);
+    pass.map_err(|error| Failure(format!("{name}: {error}")))?;
     parts(emitted, name)?;
     let mut totals = Totals::default();
     for (index, simulator) in simulators.iter().enumerate() {
@@ -281,6 +302,22 @@ fn flows(emitted: &Emitted<'_>, name: &str, releases: &[Simulator]) -> Result<()
     }
     let names: Vec<&str> = releases.iter().map(|release| release.name.as_str()).collect();
     println!("{name:<14} make icarus, control, waves: {}", names.join(", "));
+    Ok(())
+}
+
+/// What the default bundle reaches of the RTL.
+fn covered(emitted: &Emitted<'_>, name: &str, simulators: &[Simulator]) -> Result<(), Failure> {
+    let Some(newer) = simulators.last() else { return failed("no Verilator to measure coverage with") };
+    let shares = coverage::check(emitted, newer).map_err(|error| Failure(format!("{name}: {error}")))?;
+    let Shares { lines, toggles, beyond, registers } = shares;
+    println!(
+        "{name:<14} coverage: lines {} of {}, toggles {} of {}, {beyond} points beyond reach; registers {:.2} %",
+        lines.0,
+        lines.1,
+        toggles.0,
+        toggles.1,
+        100.0 * registers
+    );
     Ok(())
 }
 

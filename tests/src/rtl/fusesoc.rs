@@ -39,7 +39,7 @@ pub fn check_dut(design: &Design) -> Result<(), Failure> {
     let written = || -> Result<(), vectors::BundleError> {
         let bundle = Bundle::new(design, Strategy::Mixed, 256, 1, "make rtl")?;
         let mut set = OutputSet::create(&directory)?;
-        rtl::stage(&bundle, &dut, "make rtl", &mut set)?;
+        rtl::stage(&bundle, &dut.clone().into(), "make rtl", &mut set)?;
         let own = SOURCES.map(|(_, text)| text.replace(&format!("module {TOP} #("), &format!("module {OWN} #(")));
         set.write(&format!("{OWN}.sv"), own.concat())?;
         set.commit()?;

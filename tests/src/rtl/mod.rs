@@ -1,8 +1,11 @@
 //! The RTL in real simulators.
 
+pub mod axis;
+pub mod coverage;
 pub mod exhaustive;
 pub mod faults;
 pub mod fusesoc;
+pub mod in_source;
 pub mod mutants;
 pub mod netlist_parts;
 pub mod readers;
@@ -14,6 +17,7 @@ pub mod specialised;
 pub mod two_in_one;
 pub mod waves;
 pub mod workspace;
+pub mod wrappers;
 
 use std::fmt;
 

@@ -12,7 +12,7 @@ use vectors::Strategy;
 use vectors::rtl::Modules;
 
 use super::simulators::{Simulator, fresh};
-use super::workspace::emit_named;
+use super::workspace::emit_as;
 use super::{Failure, failed};
 
 /// What each of the two has in the testbench.
@@ -35,7 +35,8 @@ fn emit(designs: [(&str, &Design); 2]) -> Result<(std::path::PathBuf, String), F
     let mut body = String::new();
     for (prefix, design) in designs {
         let modules = Modules::new(prefix, None).map_err(failure)?;
-        let emitted = emit_named(design, &format!("two_in_one_{prefix}"), &modules, (Strategy::Mixed, VECTORS))?;
+        let name = format!("two_in_one_{prefix}");
+        let emitted = emit_as(design, &name, &modules.clone().into(), (Strategy::Mixed, VECTORS))?;
         let rtl = [PACKAGE].into_iter().chain(SOURCES.map(|(name, _)| name)).map(|name| modules.file(name));
         let images = [format!("{prefix}_rom.mem")];
         let rtl: Vec<String> = rtl.collect();

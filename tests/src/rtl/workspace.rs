@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use hw_model::design::Design;
-use vectors::rtl::Modules;
+use vectors::rtl::Emission;
 use vectors::{Bundle, OutputSet, Strategy, rtl};
 
 use super::simulators::{fresh, repository};
@@ -27,24 +27,24 @@ pub struct Emitted<'a> {
 /// # Errors
 /// When it cannot be written.
 pub fn emit<'a>(design: &'a Design, name: &str, strategy: Strategy, count: u64) -> Result<Emitted<'a>, Failure> {
-    emit_named(design, name, &Modules::default(), (strategy, count))
+    emit_as(design, name, &Emission::default(), (strategy, count))
 }
 
-/// The same with names of its own.
+/// The same as it is asked to be: with names of its own, or the ROM in the source.
 ///
 /// # Errors
 /// When it cannot be written.
-pub fn emit_named<'a>(
+pub fn emit_as<'a>(
     design: &'a Design,
     name: &str,
-    modules: &Modules,
+    emission: &Emission,
     (strategy, count): (Strategy, u64),
 ) -> Result<Emitted<'a>, Failure> {
     let directory = fresh(name)?;
     let command = format!("make rtl, {name}");
     let written = Bundle::new(design, strategy, count, 1, &command).and_then(|bundle| {
         let mut set = OutputSet::create(&directory)?;
-        let manifest = rtl::stage(&bundle, modules, &command, &mut set)?;
+        let manifest = rtl::stage(&bundle, emission, &command, &mut set)?;
         set.commit()?;
         Ok((bundle.vector_count(), manifest.negative_control.vector))
     });

@@ -3,11 +3,14 @@
 //! Nothing here looks inside the command. What is expected comes from the golden model, from the
 //! table of 32-digit values, or from arithmetic done here.
 
+mod cases;
 mod certify;
 mod check;
 mod closed_output;
 mod coefficients;
+mod coverage;
 mod design;
+mod dut;
 mod evaluate;
 mod help;
 mod meshes;
@@ -27,3 +30,4 @@ mod specialise;
 mod stability;
 mod streams;
 mod vectors;
+mod wrappers;

@@ -1,7 +1,15 @@
-//! `blysk rom`: words that unpack, by the printed layout, to the fields printed beside them.
+//! `blysk rom`: words that unpack, by the printed layout, to the fields printed beside them; and its images, as others
+//! read them.
 
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use ::vectors::memory_file::{self, Value};
 use blysk_tests::bench;
-use blysk_tests::cli::{csv_rows, number};
+use blysk_tests::cli::{CONFIGURATIONS, csv_rows, number};
+use dashu_int::UBig;
+use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::presets::ALL;
 
@@ -97,4 +105,62 @@ fn some_exponents_and_files() {
     let some = bench.good("rom --config small.json --exponents 2,7 --format csv");
     let wanted: Vec<&str> = all.lines().enumerate().filter(|(line, _)| [0, 2, 7].contains(line)).map(|l| l.1).collect();
     assert_eq!(some.lines().collect::<Vec<_>>(), wanted);
+}
+
+/// An image as another program reads it: its words.
+fn read_elsewhere(format: &str, image: &str, design: &Design) -> Vec<UBig> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let rom = design.rom();
+    let mut reader = Command::new(root.join("target/venv/bin/python"))
+        .arg(root.join("tests/src/rtl/rom_images.py"))
+        .args([format, &rom.layout().word_width().to_string(), &rom.depth().to_string()])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("scripts/setup was run");
+    reader.stdin.take().expect("a pipe").write_all(image.as_bytes()).unwrap();
+    let output = reader.wait_with_output().unwrap();
+    assert!(output.status.success(), "{format} of {}", design.config().name);
+    let text = String::from_utf8(output.stdout).unwrap();
+    text.lines().map(|word| UBig::from_str_radix(word, 16).unwrap()).collect()
+}
+
+/// Every word of every preset's images, read back by libraries (one by its grammar).
+#[test]
+fn images_are_read_by_others() {
+    let bench = bench!();
+    let presets = ALL.map(|preset| (format!("--preset {}", preset.name), preset.config().unwrap()));
+    let small = CONFIGURATIONS.map(|(file, json)| (format!("--config {file}"), Config::from_json(json).unwrap()));
+    for (option, config) in presets.into_iter().chain(small) {
+        let design = Design::new(config).unwrap();
+        let words: Vec<UBig> = design.rom().rows().iter().map(|row| design.rom().layout().pack(row)).collect();
+        for format in ["hex", "mif", "coe"] {
+            let image = bench.good(&format!("rom {option} --format {format}"));
+            assert_eq!(read_elsewhere(format, &image, &design), words, "{option} {format}");
+        }
+        let image = bench.good(&format!("rom {option} --format mem"));
+        let read = memory_file::parse(&image, Path::new("rom.mem")).unwrap();
+        let read: Vec<_> = read.into_iter().map(|entry| entry.value).collect();
+        assert_eq!(read, words.into_iter().map(Value::Known).collect::<Vec<_>>(), "{option}");
+    }
+}
+
+#[test]
+fn an_image_is_one_file_of_the_whole_rom() {
+    let bench = bench!();
+    let printed = bench.good("rom --config small.json --format mif");
+    assert!(printed.lines().nth(1).is_some_and(|line| line.ends_with("blysk rom --config small.json --format mif")));
+    let said = bench.good("rom --config small.json --format mif --out image");
+    assert!(said.contains("image/rom.mif: 8 words of "), "{said}");
+    assert_eq!(bench.text("image/rom.mif"), printed);
+    assert_eq!(bench.tree("image").len(), 2);
+    bench.refused("rom --config small.json --format coe --exponents 1", &["every word", "--exponents"]);
+    // Eight segments of degree 4 with wide coefficients: more than a record of Intel HEX holds.
+    bench.write(
+        "wide.json",
+        r#"{"name": "wide", "method": "minimax", "degree": 4, "segments": 8, "exponents": "1,2", "input": "UQ1.50",
+            "output": "UQ1.40", "cut": "balanced"}"#,
+    );
+    bench.refused("rom --config wide.json --format hex", &["255", "mem, mif or coe"]);
+    assert!(bench.good("rom --config wide.json --format coe").ends_with(";\n"));
 }

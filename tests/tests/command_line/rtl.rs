@@ -140,3 +140,31 @@ fn a_module_that_is_not_there_is_asked_for() {
     assert!(!output.status.success());
     assert!(text(&output).contains("nowhere.sv"), "{}", text(&output));
 }
+
+/// With the words in the source no image is asked for, Icarus answers every vector, and Yosys still finds a memory.
+#[test]
+fn the_rom_stands_in_the_source() {
+    let bench = bench!();
+    let said = bench.good("rtl --config centred.json --count 300 --out rtl --rom-in-source --prefix shiny");
+    assert!(said.contains("module shiny"), "{said}");
+    let sources: String = bench
+        .tree("rtl")
+        .into_iter()
+        .filter(|(name, _)| name.extension().is_some_and(|e| e == "sv"))
+        .filter(|(name, _)| !name.ends_with("shiny_tb.sv"))
+        .map(|(_, text)| String::from_utf8(text.unwrap()).unwrap())
+        .collect();
+    assert!(!sources.contains("ROM_FILE") && !sources.contains("$readmemh") && !sources.contains("$fopen"));
+    let output = make(&bench.path("rtl"), &["icarus"]);
+    assert!(output.status.success() && text(&output).contains("PASS 300 vectors"), "{}", text(&output));
+    let output = make(&bench.path("rtl"), &["lint"]);
+    assert!(output.status.success(), "{}", text(&output));
+    let files = SOURCES.map(|(name, _)| name.replace(TOP, "shiny")).join(" ");
+    let script = format!(
+        "read_verilog -sv shiny_pkg.sv {files}; hierarchy -check -top shiny; proc; flatten; opt; memory -nomap; \
+         select -assert-count 1 t:$mem_v2; check -assert"
+    );
+    let output = Command::new("yosys").args(["-q", "-p", &script]).current_dir(bench.path("rtl")).output().unwrap();
+    assert!(output.status.success(), "{}", text(&output));
+    bench.refused("rtl --config small.json --out new --rom-in-source --dut mine", &["--rom-in-source", "--dut"]);
+}

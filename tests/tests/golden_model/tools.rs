@@ -83,7 +83,8 @@ impl Tools {
     /// newer Verilator.
     pub fn installed(&self, command: &mut Command) {
         let environment = self.python.parent().expect("the interpreter's directory");
-        let own = [self.programs.as_path(), environment, &self.verilator.join("bin")].map(|path| path.display().to_string());
+        let own =
+            [self.programs.as_path(), environment, &self.verilator.join("bin")].map(|path| path.display().to_string());
         let path = own.into_iter().chain(std::env::var("PATH").ok()).collect::<Vec<_>>().join(":");
         command.env("PATH", path).env("VERILATOR_ROOT", &self.verilator).env("OBJCACHE", "ccache");
         command.env("PKG_CONFIG_PATH", self.library.join("lib/pkgconfig")).env_remove("MAKEFLAGS");

@@ -11,9 +11,11 @@ mod answer;
 mod csv;
 mod hex;
 mod lines;
+mod list;
 mod stream;
 
 pub use answer::{Answer, Question};
 pub use csv::Csv;
 pub use hex::Hex;
+pub use list::questions;
 pub use stream::{Dialect, StreamError, stream};

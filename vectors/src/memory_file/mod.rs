@@ -12,4 +12,5 @@ mod write;
 pub use error::{LineProblem, MemoryError};
 pub(crate) use read::value;
 pub use read::{Entry, Value, parse, read_words};
+pub(crate) use write::comment;
 pub use write::{Header, write_header, write_word};

@@ -25,15 +25,19 @@ pub struct Header<'a> {
 pub fn write_header(out: &mut impl Write, header: &Header<'_>) -> io::Result<()> {
     let Header { title, layout, words, command } = header;
     let (digits, width) = (layout.digits(), layout.width);
-    // A line break would end the comment, and the rest of the command would be read as numbers.
-    let command: String = command.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     writeln!(out, "// Blysk {title}, for $readmemh: {words} words of {width} bits")?;
     writeln!(out, "// one word a line, {digits} hex digits, two's complement where signed")?;
     for field in &layout.fields {
         let (msb, lsb, format) = (field.msb, field.lsb, field.format);
         writeln!(out, "//   [{msb}:{lsb}] {} {format}", field.name)?;
     }
-    writeln!(out, "// made by: {command}")
+    writeln!(out, "// made by: {}", comment(command))
+}
+
+/// A text as it may stand in a comment of a line: a line break would end the comment, and what is behind it would be
+/// read as numbers.
+pub(crate) fn comment(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 /// Writes one word.

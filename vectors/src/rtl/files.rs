@@ -14,3 +14,19 @@ pub const EXPONENTS: &str = "exponents.mem";
 pub const MAKEFILE: &str = "Makefile";
 /// The FuseSoC core file.
 pub const CORE: &str = "blysk.core";
+
+/// The IP-XACT component of the AXI4-Stream module.
+pub const IP_XACT: &str = "blysk_axis.xml";
+/// The VHDL component and an entity that instantiates it.
+pub const VHDL: &str = "blysk.vhd";
+/// The manifest of Bender, the package manager for hardware.
+pub const BENDER: &str = "Bender.yml";
+/// The clock, for tools that read SDC.
+pub const SDC: &str = "blysk.sdc";
+/// The recipe for Vivado.
+pub const VIVADO: &str = "vivado.tcl";
+/// The recipe for Quartus.
+pub const QUARTUS: &str = "quartus.tcl";
+
+/// The files beside the modules whose names may begin with the prefix.
+pub(super) const DESCRIPTIONS: [&str; 7] = [CORE, IP_XACT, VHDL, BENDER, SDC, VIVADO, QUARTUS];

@@ -1,5 +1,8 @@
 //! The hardware as files: RTL, package, testbench, and what runs them.
 
+mod dut_ports;
+mod dut_testbench;
+mod emission;
 pub(crate) mod files;
 mod modules;
 mod package;
@@ -7,23 +10,28 @@ pub mod probes;
 mod project;
 mod register_checker;
 pub mod register_log;
+mod rom_source;
 pub mod save_file;
 mod sources;
 mod testbench;
+pub mod wrappers;
 
 use std::io::Write;
 
 use dashu_int::UBig;
 use hw_model::datapath::Signals;
 use hw_model::design::Design;
-use hw_model::rtl::SOURCES;
 pub use hw_model::rtl::{PACKAGE, TESTBENCH};
+use hw_model::rtl::{SOURCES, WRAPPER};
 
 use crate::bundle::{self, Bundle, BundleError};
 use crate::case::Strategy;
 use crate::manifest::Manifest;
 use crate::whole_file::{OutputError, OutputFile, OutputSet};
 
+pub use dut_ports::{DutPorts, PortMapError};
+pub use dut_testbench::dut_testbench;
+pub use emission::{CLOCK_MHZ, Dut, Emission};
 pub use files::{CORE, EXPONENTS, MAKEFILE, SAVE_FILE, STAGES};
 use files::{SCOPE, WAVES};
 pub use modules::Modules;
@@ -35,12 +43,13 @@ pub use sources::Sources;
 pub use testbench::testbench;
 
 use probes::StageWord;
+use rom_source::in_source;
 
 /// The names of the files of a directory of hardware.
 #[must_use]
-pub fn names(modules: &Modules, strategy: Strategy) -> Vec<String> {
+pub fn names(emission: &Emission, strategy: Strategy) -> Vec<String> {
     let plain = [MAKEFILE, SAVE_FILE, STAGES, EXPONENTS].into_iter().chain(bundle::names(strategy));
-    modules.files().chain(plain.map(str::to_owned)).collect()
+    emission.modules.files().chain(plain.map(str::to_owned)).collect()
 }
 
 /// Writes a directory that stands alone into `set`: RTL, package, testbench, ROM image, vectors,
@@ -50,21 +59,30 @@ pub fn names(modules: &Modules, strategy: Strategy) -> Vec<String> {
 /// When a file cannot be written.
 pub fn stage(
     bundle: &Bundle<'_>,
-    modules: &Modules,
+    emission: &Emission,
     command: &str,
     set: &mut OutputSet,
 ) -> Result<Manifest, BundleError> {
-    let design = bundle.design();
+    let (design, modules) = (bundle.design(), &emission.modules);
     let sources = Sources { design, modules, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
-    for (name, text) in SOURCES {
+    for (name, text) in SOURCES.into_iter().chain([WRAPPER]) {
+        let text = if emission.rom_in_source { &in_source(text, design) } else { text };
         set.write(&modules.file(name), modules.text(text))?;
     }
     set.write(&modules.file(PACKAGE), modules.text(&package(design, command)))?;
-    set.write(&modules.file(TESTBENCH), modules.text(&testbench(&sources)))?;
+    let bench = emission.dut.as_ref().map_or_else(|| testbench(&sources), |dut| dut_testbench(&sources, dut));
+    set.write(&modules.file(TESTBENCH), modules.text(&bench))?;
+    for (name, text) in wrappers::wrappers(&sources, emission) {
+        set.write(&modules.file(name), text)?;
+    }
     set.write(MAKEFILE, modules.text(&project::makefile(&sources)))?;
     set.write(&modules.file(CORE), modules.text(&project::core_file(&sources)))?;
-    let names = if modules.is_own() { Names::Rtl } else { Names::Ports };
-    set.write(SAVE_FILE, save_file(design.datapath(), names, &modules.text(SCOPE), Some(WAVES)))?;
+    let (names, scope) = match &emission.dut {
+        Some(_) => (Names::Testbench, TESTBENCH.trim_end_matches(".sv")),
+        None if modules.is_own() => (Names::Rtl, SCOPE),
+        None => (Names::Ports, SCOPE),
+    };
+    set.write(SAVE_FILE, save_file(design.datapath(), names, &modules.text(scope), Some(WAVES)))?;
     stage_words(bundle, command, set)?;
     set.write(EXPONENTS, exponents(design, command))?;
     if let Some(image) = modules.rom_image() {

@@ -4,9 +4,9 @@
 //! one design: each has its package and its modules, whose widths come from that package.
 
 use hw_model::names::{self, NameError};
-use hw_model::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP};
+use hw_model::rtl::{PACKAGE, SOURCES, TESTBENCH, TOP, WRAPPER};
 
-use super::files::CORE;
+use super::files::DESCRIPTIONS;
 use crate::manifest::ROM;
 
 /// The prefix of all names, and the module under test.
@@ -85,7 +85,8 @@ impl Modules {
             renamed += before;
             let (name, after) = from.split_at(from.find(|c: char| !in_a_name(c)).unwrap_or(from.len()));
             let known = name != TOP && KNOWN.iter().any(|file| file.strip_suffix(".sv") == Some(name));
-            let top = name == TOP && (renamed.ends_with("module ") || after.starts_with(".sv"));
+            let instance = after.starts_with(" #(") || after.starts_with(" pipeline (");
+            let top = name == TOP && (renamed.ends_with("module ") || after.starts_with(".sv") || instance);
             renamed += &if known || top { self.file(name) } else { name.to_owned() };
             rest = after;
         }
@@ -98,18 +99,19 @@ impl Modules {
 
     /// The files of the hardware, but those of the vectors and their testbench.
     pub(super) fn files(&self) -> impl Iterator<Item = String> {
-        let renamed = KNOWN.iter().chain([&CORE]).map(|name| self.file(name));
+        let renamed = KNOWN.iter().chain(&DESCRIPTIONS).map(|name| self.file(name));
         renamed.chain(self.rom_image())
     }
 }
 
 /// The files that begin with the prefix and hold a module or a package of the same name.
-const KNOWN: [&str; SOURCES.len() + 2] = {
-    let mut known = [PACKAGE; SOURCES.len() + 2];
+const KNOWN: [&str; SOURCES.len() + 3] = {
+    let mut known = [PACKAGE; SOURCES.len() + 3];
     known[1] = TESTBENCH;
+    known[2] = WRAPPER.0;
     let mut source = 0;
     while source < SOURCES.len() {
-        known[2 + source] = SOURCES[source].0;
+        known[3 + source] = SOURCES[source].0;
         source += 1;
     }
     known
@@ -138,7 +140,7 @@ mod tests {
     #[test]
     fn no_source_keeps_a_name_of_the_project() {
         let modules = Modules::new("q", None).unwrap();
-        for (name, text) in SOURCES {
+        for (name, text) in SOURCES.into_iter().chain([WRAPPER]) {
             let code: String = modules.text(text).lines().map(|line| line.split("//").next().unwrap_or("")).collect();
             assert!(!code.contains(TOP), "{name}");
         }

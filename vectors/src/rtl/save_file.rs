@@ -10,6 +10,7 @@ use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
 use hw_model::registers::Register;
 
+use super::dut_ports::signal;
 use super::probes::{VALID_FLAGS, ports, probes, valid_wave};
 
 /// Flags of GTKWave (its `analyzer.h`): how a value is shown, and what begins and ends a group.
@@ -34,6 +35,8 @@ pub enum Names {
     Rtl,
     /// The ports alone: the module is the user's own, with registers of other names.
     Ports,
+    /// The testbench's signals at the ports, which the user's own module may call otherwise.
+    Testbench,
 }
 
 impl Names {
@@ -42,7 +45,7 @@ impl Names {
     const fn zoom(self) -> u32 {
         match self {
             Self::Ranks => 7,
-            Self::Rtl | Self::Ports => 17,
+            Self::Rtl | Self::Ports | Self::Testbench => 17,
         }
     }
 }
@@ -60,7 +63,8 @@ pub fn save_file(datapath: &Datapath, names: Names, scope: &str, dump: Option<&s
     file.line(format_args!("[timestart] 0\n*-{}.000000 -1", names.zoom()));
     file.group("ports", |file| {
         for port in ports(datapath) {
-            file.signal(None, port.name, port.format, port.name == "status_o");
+            let name = if names == Names::Testbench { signal(port.name) } else { port.name };
+            file.signal(None, name, port.format, port.name == "status_o");
         }
     });
     match names {
@@ -70,7 +74,7 @@ pub fn save_file(datapath: &Datapath, names: Names, scope: &str, dump: Option<&s
             file.group("valid flags", |file| file.signal(None, VALID_FLAGS, flags, true));
             file.ranks(datapath, true);
         }
-        Names::Ports => {}
+        Names::Ports | Names::Testbench => {}
     }
     file.text
 }

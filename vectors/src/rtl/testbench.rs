@@ -68,14 +68,14 @@ struct Testbench<'a> {
 }
 
 /// A format as the testbench needs it.
-struct Number {
-    width: u32,
-    signed: u8,
-    fraction: u32,
+pub(super) struct Number {
+    pub(super) width: u32,
+    pub(super) signed: u8,
+    pub(super) fraction: u32,
 }
 
 impl Number {
-    fn of(format: QFormat) -> Self {
+    pub(super) fn of(format: QFormat) -> Self {
         Self { width: format.width(), signed: u8::from(format.is_signed()), fraction: format.fraction_bits() }
     }
 }

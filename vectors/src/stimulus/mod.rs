@@ -14,8 +14,9 @@ use std::iter;
 
 use hw_model::design::Design;
 
-use crate::case::{Sample, Strategy};
+use crate::case::{Case, Sample, Strategy};
 use crate::faults::{Compact, OneByOne, Workers};
+use crate::kind::Kind;
 use corners::Corners;
 use targets::Targets;
 
@@ -29,6 +30,7 @@ const EVEN_SHARE: (u64, u64) = (1, 8);
 pub struct Stimulus<'a> {
     design: &'a Design,
     seed: u64,
+    listed: Vec<Sample>,
     compact: Option<Compact>,
     targets: Targets,
     corners: Corners,
@@ -51,17 +53,10 @@ impl<'a> Stimulus<'a> {
     /// The same; `workers` do what takes long.
     #[must_use]
     pub fn with_workers(design: &'a Design, strategy: Strategy, count: u64, seed: u64, workers: &impl Workers) -> Self {
-        let mut stimulus = Self {
-            design,
-            seed,
-            compact: None,
-            targets: Targets::default(),
-            corners: Corners::default(),
-            even: 0,
-            random: 0,
-            exhaustive: false,
-        };
+        let mut stimulus = Self::empty(design, seed);
         match strategy {
+            // Its cases come with `of_cases`.
+            Strategy::List => {}
             Strategy::Corners => stimulus.corners = Corners::new(design, count),
             Strategy::Even => stimulus.even = count,
             Strategy::Random => stimulus.random = count,
@@ -70,6 +65,27 @@ impl<'a> Stimulus<'a> {
             Strategy::Compact => stimulus.compact = Some(Compact::search(design, workers)),
         }
         stimulus
+    }
+
+    /// These cases in this order, and no others. The `seed` is for what is drawn beside the cases.
+    #[must_use]
+    pub fn of_cases(design: &'a Design, cases: &[Case], seed: u64) -> Self {
+        let listed = cases.iter().map(|&case| Sample { case, kind: Kind::Listed }).collect();
+        Self { listed, ..Self::empty(design, seed) }
+    }
+
+    fn empty(design: &'a Design, seed: u64) -> Self {
+        Self {
+            design,
+            seed,
+            listed: Vec::new(),
+            compact: None,
+            targets: Targets::default(),
+            corners: Corners::default(),
+            even: 0,
+            random: 0,
+            exhaustive: false,
+        }
     }
 
     fn mix(&mut self, count: u64) {
@@ -87,7 +103,7 @@ impl<'a> Stimulus<'a> {
     #[must_use]
     pub fn len(&self) -> u128 {
         let all = if self.exhaustive { exhaustive::len(self.design) } else { 0 };
-        let chosen = self.targeted().len() + self.corners.samples().len();
+        let chosen = self.listed.len() + self.targeted().len() + self.corners.samples().len();
         all + chosen as u128 + u128::from(self.even) + u128::from(self.random)
     }
 
@@ -133,7 +149,7 @@ impl<'a> Stimulus<'a> {
             0 => Box::new(iter::empty()),
             count => Box::new(random::samples(self.design, count, self.seed)),
         };
-        let chosen = self.targeted().iter().chain(self.corners.samples()).copied();
+        let chosen = self.listed.iter().chain(self.targeted()).chain(self.corners.samples()).copied();
         Box::new(chosen.chain(even::samples(self.design, self.even)).chain(random))
     }
 }

@@ -74,9 +74,12 @@ fn epicentre(design: &Design, address: u32) -> i64 {
 }
 
 /// A source of unbiased integers.
-pub(crate) struct Dice(ChaCha8Rng);
+#[derive(Debug)]
+pub struct Dice(ChaCha8Rng);
 
 impl Dice {
+    /// A source whose key is the seed.
+    #[must_use]
     pub fn new(seed: u64) -> Self {
         let mut key = [0; 32];
         key[..8].copy_from_slice(&seed.to_le_bytes());

@@ -44,6 +44,10 @@ impl TextKind {
 pub const CONFIGURATION: TextKind =
     TextKind::whole("configuration", 16 * MIB, "`blysk presets show NAME` prints a configuration to start from");
 
+/// A map of a module's ports, as JSON.
+pub const PORT_MAP: TextKind =
+    TextKind::whole("map of ports", MIB, "write what the ports are called: {\"ports\": {\"clk_i\": \"clk\"}}");
+
 /// A scene, as JSON.
 pub const SCENE: TextKind = TextKind::whole("scene", 256 * MIB, "`blysk scene --schema` prints what a scene has");
 

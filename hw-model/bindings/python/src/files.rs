@@ -76,12 +76,13 @@ pub(crate) fn write_rtl(
     let choice = Choice::of(strategy, count, seed)?;
     py.detach(|| {
         let command = choice.command("rtl", model, format_args!(", prefix={prefix}, dut={}", modules.dut()));
+        let emission = modules.into();
         let bundle = choice.bundle(model, &command)?;
         let mut set = OutputSet::create(&out)
             .and_then(|set| set.listed("rtl"))
-            .and_then(|set| set.announce(vectors::rtl::names(&modules, choice.strategy)))
+            .and_then(|set| set.announce(vectors::rtl::names(&emission, choice.strategy)))
             .map_err(errors::file)?;
-        let manifest = vectors::rtl::stage(&bundle, &modules, &command, &mut set).map_err(errors::file)?;
+        let manifest = vectors::rtl::stage(&bundle, &emission, &command, &mut set).map_err(errors::file)?;
         set.commit().map_err(errors::file)?;
         Ok(manifest.to_json())
     })

@@ -68,7 +68,7 @@ impl Bench {
         let dut = Modules::new(TOP, Some("blysk_mutated")).map_err(|error| Failure(error.to_string()))?;
         let written = || -> Result<(), vectors::BundleError> {
             let mut set = OutputSet::create(&directory)?;
-            rtl::stage(bundle, &dut, "make mutants", &mut set)?;
+            rtl::stage(bundle, &dut.clone().into(), "make mutants", &mut set)?;
             set.write("blysk_mutated.sv", WRAPPER)?;
             set.commit()?;
             Ok(())

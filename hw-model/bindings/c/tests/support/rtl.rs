@@ -19,7 +19,7 @@ pub fn emit(preset: &str, name: &str) -> PathBuf {
     let modules = Modules::default();
     let bundle = Bundle::new(&design, Strategy::Even, 16, 1, name).expect("a bundle");
     let mut set = OutputSet::create(&directory).expect("a directory");
-    stage(&bundle, &modules, name, &mut set).expect("the RTL is written");
+    stage(&bundle, &modules.clone().into(), name, &mut set).expect("the RTL is written");
     set.write(REGISTER_CHECKER, register_checker(&design, &modules, name)).expect("the checker is written");
     set.commit().expect("the files are there");
     directory
