@@ -1,6 +1,5 @@
 //! The RTL in real simulators.
 
-pub mod exhaustive;
 pub mod faults;
 pub mod fusesoc;
 pub mod mutants;
