@@ -114,7 +114,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 fn plan(args: &PlanArgs, out: &mut Out) -> anyhow::Result<Outcome> {
     let place = Place(&args.out);
     let mut job = Job::read(&args.job)?;
-    Plan::prepare(&mut job, place)?;
+    Plan::prepare(&mut job, args.shards, place)?;
     let plan = Plan::new(job, args.shards, place)?;
     plan.write(place)?;
     if args.slurm {
@@ -127,10 +127,11 @@ fn plan(args: &PlanArgs, out: &mut Out) -> anyhow::Result<Outcome> {
 
 fn run_one(args: &RunArgs, out: &mut Out) -> anyhow::Result<Outcome> {
     let place = Place(&args.directory);
-    let (plan, _) = Plan::read(place)?;
+    let (plan, kind) = Plan::read(place)?;
     let pieces = plan.pieces_of(args.index)?;
     let bar = Bar::counting(Some(pieces.end - pieces.start), "pieces");
-    let Ran { pieces, measured, not_believed } = run_shard(place, args.index, Duration::from_secs(args.every), &bar)?;
+    let Ran { pieces, measured, not_believed } =
+        run_shard(place, (&plan, &*kind), args.index, Duration::from_secs(args.every), &bar)?;
     bar.finish();
     for why in not_believed {
         write_folded(out, &format!("not believed, and measured again: {why}"))?;
@@ -212,6 +213,11 @@ fn print(merged: &Merged, out: &mut Out) -> anyhow::Result<Outcome> {
             let words = "results of the RTL compared with the model";
             writeln!(out, "{configuration}: {compared} {words}, {different} differences")?;
             Ok(if *different == 0 { Outcome::Good } else { Outcome::Fails })
+        }
+        Merged::Printed(rows) => {
+            let failed = rows.iter().filter(|row| row.printed.status != 0).count();
+            writeln!(out, "{} runs, {failed} of them with a status that is not 0", rows.len())?;
+            Ok(if failed == 0 { Outcome::Good } else { Outcome::Fails })
         }
         Merged::Certificate(certificate) => {
             certify::print::claim(certificate.claim(), Format::Table, out)?;

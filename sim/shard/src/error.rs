@@ -54,16 +54,26 @@ pub enum ShardError {
     /// RTL cannot be built, or does not answer.
     #[error(transparent)]
     Rtl(#[from] RtlError),
-    /// A job of RTL that no harness was built for.
-    #[error("the job's rtl.program is not there; `blysk shard plan` builds it")]
+    /// A job that runs a program whose digest it does not name.
+    #[error("the job names no digest of its program; `blysk shard plan` adds it")]
     NotBuilt,
-    /// A harness that is not the one of the plan.
-    #[error("{} is not the program that was built for the plan, with SHA-256 {wanted}; plan again", path.display())]
+    /// A program that is not the one of the plan.
+    #[error("{} is not the program of the plan, with SHA-256 {wanted}; plan again", path.display())]
     OtherProgram {
-        /// The path of the harness.
+        /// The path of the program.
         path: PathBuf,
         /// The digest that the plan names.
         wanted: String,
+    },
+    /// A run of a program that has no result.
+    #[error("{} {arguments} {what}", path.display())]
+    Program {
+        /// The path of the program.
+        path: PathBuf,
+        /// The arguments of the run.
+        arguments: String,
+        /// What went wrong.
+        what: String,
     },
     /// A shard would have more inputs than one run goes through.
     #[error(transparent)]

@@ -14,6 +14,9 @@ use vectors::checksum::{Checksum, checksum};
 use vectors::output_text::json;
 use vectors::text_file::{self, CONFIGURATION, JOB, TextError};
 
+/// The most runs of a program in one job, 2^16.
+pub const MOST_RUNS: usize = 1 << 16;
+
 /// What the field `format` of a job says.
 pub const FORMAT: &str = "blysk job";
 /// What its field `version` says.
@@ -39,6 +42,8 @@ pub enum Work {
     Certify(CertifyWork),
     /// Every x of every exponent through the RTL, in Verilator.
     Rtl(RtlWork),
+    /// Runs of a program of one's own.
+    Program(ProgramWork),
 }
 
 /// The errors of a configuration over every representable x.
@@ -60,6 +65,19 @@ pub struct RtlWork {
     /// What was built of the RTL. A plan has it, and a job that is not planned yet has not.
     #[serde(default)]
     pub program: Option<Checksum>,
+}
+
+/// Runs of a program, each a piece of work. What the program prints must follow from its arguments alone.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProgramWork {
+    /// The program, by its path from the directory of the job; in a plan, by its absolute path.
+    pub path: PathBuf,
+    /// What the program is known by. A plan has it, and a job that is not planned yet has not.
+    #[serde(default)]
+    pub digest: Option<Checksum>,
+    /// The arguments of each run.
+    pub runs: Vec<Vec<String>>,
 }
 
 /// What is certified, by the names that certificates have for it.
@@ -206,6 +224,11 @@ impl Job {
                     wanted: "name at least one method, such as \"hermite\"",
                 })
             }
+            Work::Program(ProgramWork { runs, .. }) if !(1..=MOST_RUNS).contains(&runs.len()) => Err(JobError::Range {
+                field: "program.runs",
+                value: format!("a list of {}", runs.len()),
+                wanted: "a job has 1 to 65536 runs",
+            }),
             _ => Ok(()),
         }
     }
@@ -215,9 +238,22 @@ impl Job {
             Work::Errors(work) => work.configuration.resolve(directory)?,
             Work::Rtl(work) => work.configuration.resolve(directory)?,
             Work::Certify(CertifyWork::Hardware(subject)) => subject.resolve(directory)?,
+            Work::Program(work) => {
+                let path = directory.join(&work.path);
+                work.path = std::path::absolute(&path).unwrap_or(path);
+            }
             Work::Certify(_) => {}
         }
         Ok(self)
+    }
+
+    /// Where the digest of the program stands that the job runs; none where it runs none.
+    pub(crate) fn program_mut(&mut self) -> Option<&mut Option<Checksum>> {
+        match &mut self.work {
+            Work::Rtl(work) => Some(&mut work.program),
+            Work::Program(work) => Some(&mut work.digest),
+            Work::Errors(_) | Work::Certify(_) => None,
+        }
     }
 
     /// SHA-256 of everything that the job says: what results are known by.

@@ -7,7 +7,7 @@ use crate::merged::Merged;
 use crate::part::Part;
 
 /// A kind of work, made ready for one job.
-pub trait Kind: Sync {
+pub trait Kind: Send + Sync {
     /// How many pieces the job has.
     fn pieces(&self) -> u64;
 

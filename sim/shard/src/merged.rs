@@ -8,6 +8,7 @@ use serde::Serialize;
 use vectors::OutputSet;
 
 use crate::error::ShardError;
+use crate::part::Printed;
 
 /// The merged report of a job.
 #[derive(Debug, Clone)]
@@ -23,6 +24,26 @@ pub enum Merged {
     Certificate(Box<Certificate>),
     /// Of RTL beside the model.
     Rtl(RtlReport),
+    /// Of runs of a program.
+    Printed(Vec<ProgramRow>),
+}
+
+/// A run of a program with what it printed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProgramRow {
+    /// The arguments of the run.
+    pub arguments: Vec<String>,
+    /// What it printed.
+    pub printed: Printed,
+}
+
+/// A line of `runs.csv`.
+#[derive(Serialize)]
+struct RunLine {
+    run: usize,
+    arguments: String,
+    status: i32,
+    bytes: usize,
 }
 
 /// How RTL and model agree, exponent by exponent.
@@ -65,6 +86,14 @@ pub const CERTIFICATE: &str = "certificate.json";
 /// The names of the report of RTL beside the model.
 pub const RTL: [&str; 2] = ["exhaustive.csv", "exhaustive.json"];
 
+/// The table of runs.
+const RUNS: &str = "runs.csv";
+
+/// What the run of this number printed.
+fn run_name(number: usize) -> String {
+    format!("run-{number:05}.txt")
+}
+
 impl Merged {
     /// Adds the files of the report to a set: the same bytes as one machine's command writes.
     ///
@@ -80,6 +109,17 @@ impl Merged {
                 set.write(csv, written::table(csv, &report.rows)?)?;
                 set.write(json, written::json(json, report)?)?;
             }
+            Self::Printed(rows) => {
+                let line = |(run, row): (usize, &ProgramRow)| {
+                    let ProgramRow { arguments, printed: Printed { status, text } } = row;
+                    RunLine { run, arguments: arguments.join(" "), status: *status, bytes: text.len() }
+                };
+                let lines: Vec<RunLine> = rows.iter().enumerate().map(line).collect();
+                set.write(RUNS, written::table(RUNS, &lines)?)?;
+                for (number, row) in rows.iter().enumerate() {
+                    set.write(&run_name(number), &row.printed.text)?;
+                }
+            }
             Self::Certificate(certificate) => set.write(CERTIFICATE, certificate.to_json())?,
         }
         Ok(())
@@ -91,6 +131,7 @@ impl Merged {
         match self {
             Self::Errors { .. } => files::names().collect(),
             Self::Rtl(_) => RTL.map(str::to_owned).to_vec(),
+            Self::Printed(rows) => std::iter::once(RUNS.to_owned()).chain((0..rows.len()).map(run_name)).collect(),
             Self::Certificate(_) => vec![CERTIFICATE.to_owned()],
         }
     }
@@ -102,6 +143,7 @@ impl Merged {
             Self::Errors { .. } => "report",
             Self::Certificate(_) => "certify",
             Self::Rtl(_) => "exhaustive",
+            Self::Printed(_) => "runs",
         }
     }
 }

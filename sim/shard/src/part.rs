@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::rtl::Counts;
 
+/// The most bytes that a run of a program prints, 2^24.
+pub const MOST_PRINTED: usize = 1 << 24;
+
 /// A part of what a shard found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -16,6 +19,8 @@ pub enum Part {
     Rtl(RtlPart),
     /// The enclosure of one method at one exponent.
     Claim(ExponentClaim),
+    /// What one run of a program printed.
+    Printed(Printed),
     /// The enclosure of one method at every real exponent.
     EveryClaim(EveryClaim),
 }
@@ -38,4 +43,14 @@ pub struct RtlPart {
     pub address: u32,
     /// How many results agree and differ.
     pub counts: Counts,
+}
+
+/// What one run of a program printed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Printed {
+    /// The exit status, 0 to 255.
+    pub status: i32,
+    /// Standard output.
+    pub text: String,
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use bounds::seal::{self, Sealed};
 use serde::{Deserialize, Serialize};
 use vectors::WholeFile;
+use vectors::checksum::Checksum;
 use vectors::limits::{MOST_PIECES, MOST_SHARDS};
 use vectors::text_file::{self, SHARD_PLAN};
 
@@ -57,6 +58,11 @@ impl Plan {
     /// # Errors
     /// When the job cannot be done, or not in so many shards.
     pub fn new(job: Job, shards: u32, place: Place<'_>) -> Result<Self, ShardError> {
+        Ok(Self::made_ready(job, shards, place)?.0)
+    }
+
+    /// The same with its kind of work made ready.
+    fn made_ready(job: Job, shards: u32, place: Place<'_>) -> Result<(Self, Box<dyn Kind>), ShardError> {
         let kind = kinds::of(&job, place)?;
         let pieces = kind.pieces();
         if pieces > MOST_PIECES {
@@ -67,7 +73,7 @@ impl Plan {
             return Err(ShardError::Shards { shards, most, pieces });
         }
         kind.fits(pieces.div_ceil(shards.into()))?;
-        Ok(seal::seal(Self {
+        let plan = seal::seal(Self {
             format: Self::FORMAT.to_owned(),
             version: Self::VERSION,
             blysk: VERSION.to_owned(),
@@ -76,21 +82,34 @@ impl Plan {
             shards,
             job,
             sha256: String::new(),
-        }))
+        });
+        Ok((plan, kind))
     }
 
-    /// What a job needs to be built before it is planned: RTL, by Verilator. A directory that has a plan has it already.
+    /// Adds what a job needs before it is planned: the digest of its program, and for RTL what Verilator builds of it.
+    /// That the job can be cut into so many shards is looked at before anything is built. A directory that has a plan has
+    /// the program already.
     ///
     /// # Errors
-    /// When it cannot be built.
-    pub fn prepare(job: &mut Job, place: Place<'_>) -> Result<(), ShardError> {
-        let Work::Rtl(work) = &mut job.work else { return Ok(()) };
-        if !place.plan().exists() {
-            let design = work.configuration.design()?;
-            rtl::emit(&design, &place.rtl(), "blysk shard plan")?;
-            rtl::build(&place.rtl())?;
+    /// As [`new`](Self::new), and when the program cannot be built.
+    pub fn prepare(job: &mut Job, shards: u32, place: Place<'_>) -> Result<(), ShardError> {
+        let Some(named) = job.program_mut() else { return Ok(()) };
+        *named = Some(Checksum { bytes: 0, sha256: String::new() });
+        Self::new(job.clone(), shards, place)?;
+        let found = match &job.work {
+            Work::Rtl(work) => {
+                if !place.plan().exists() {
+                    rtl::emit(&work.configuration.design()?, &place.rtl(), Self::WRITER)?;
+                    rtl::build(&place.rtl())?;
+                }
+                kinds::digest(&place.program())?
+            }
+            Work::Program(work) => kinds::digest(&work.path)?,
+            Work::Errors(_) | Work::Certify(_) => return Ok(()),
+        };
+        if let Some(named) = job.program_mut() {
+            *named = Some(found);
         }
-        work.program = Some(kinds::digest(&place.program())?);
         Ok(())
     }
 
@@ -117,10 +136,10 @@ impl Plan {
             return Err(wrong(format!("it is of version {} of blysk, and this is version {VERSION}", plan.blysk)));
         }
         plan.job.check()?;
-        if Self::new(plan.job.clone(), plan.shards, place)? != plan {
+        let (own, kind) = Self::made_ready(plan.job.clone(), plan.shards, place)?;
+        if own != plan {
             return Err(wrong("its digest or its number of pieces is not that of its job".to_owned()));
         }
-        let kind = kinds::of(&plan.job, place)?;
         Ok((plan, kind))
     }
 

@@ -28,18 +28,23 @@ pub struct Ran {
     pub not_believed: Vec<String>,
 }
 
-/// Runs the shard of this number. `every` is the time between two checkpoints, at least. Pieces go to all threads; the
-/// bytes of the result do not depend on their number, nor on checkpoints.
+/// Runs the shard of this number of a plan that was read. `every` is the time between two checkpoints, at least. Pieces
+/// go to all threads; the bytes of the result do not depend on their number, nor on checkpoints.
 ///
 /// # Errors
 /// When there is no such shard, it cannot be measured, or its result cannot be written.
-pub fn run(place: Place<'_>, index: u32, every: Duration, progress: &dyn Progress) -> Result<Ran, ShardError> {
-    let (plan, kind) = Plan::read(place)?;
+pub fn run(
+    place: Place<'_>,
+    (plan, kind): (&Plan, &dyn Kind),
+    index: u32,
+    every: Duration,
+    progress: &dyn Progress,
+) -> Result<Ran, ShardError> {
     let pieces = plan.pieces_of(index)?;
     let (result, checkpoint) = (place.result(index), place.checkpoint(index));
     let mut not_believed = Vec::new();
     let mut believed = |path: &Path| {
-        let found = Found::read(path, &plan, &*kind);
+        let found = Found::read(path, plan, kind);
         found.map_err(|why| not_believed.extend(why)).ok()
     };
     if let Some(found) = believed(&result)
@@ -53,7 +58,7 @@ pub fn run(place: Place<'_>, index: u32, every: Duration, progress: &dyn Progres
     kind.ready()?;
     // Before the work, so that a place where nothing can be written is found at once.
     let file = WholeFile::create(&result)?;
-    let mut shard = Shard::new(&plan, &*kind, pieces.clone(), begun);
+    let mut shard = Shard::new(plan, kind, pieces.clone(), begun);
     let measured = shard.done..pieces.end;
     progress.advance(shard.done - pieces.start);
     let mut last = Instant::now();

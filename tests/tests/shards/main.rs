@@ -4,4 +4,6 @@
 mod campaign;
 mod killed;
 mod refused;
+mod rtl;
 mod same_bytes;
+mod workflow;

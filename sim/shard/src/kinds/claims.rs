@@ -8,6 +8,7 @@ use bounds::certify::search::{claim_every_exponent, claim_exponent};
 use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method};
 
+use super::rows::count;
 use crate::error::ShardError;
 use crate::job::JobError;
 use crate::kind::Kind;
@@ -130,13 +131,4 @@ impl Kind for EveryExponent {
 
 fn certificate(claim: Claim) -> Merged {
     Merged::Certificate(Box::new(Certificate::new(claim)))
-}
-
-/// One part to a piece.
-pub(super) fn count(pieces: &Range<u64>, parts: &[Part]) -> Result<(), String> {
-    let wanted = pieces.end - pieces.start;
-    if parts.len() as u64 == wanted {
-        return Ok(());
-    }
-    Err(format!("it has {} parts, and its pieces give {wanted}", parts.len()))
 }

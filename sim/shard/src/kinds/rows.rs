@@ -54,3 +54,12 @@ pub(super) fn check_rows(
         Some((address, ..)) => Err(format!("there is nothing of address {address}")),
     }
 }
+
+/// One part to a piece.
+pub(super) fn count(pieces: &Range<u64>, parts: &[Part]) -> Result<(), String> {
+    let wanted = pieces.end - pieces.start;
+    if parts.len() as u64 == wanted {
+        return Ok(());
+    }
+    Err(format!("it has {} parts, and its pieces give {wanted}", parts.len()))
+}

@@ -2,14 +2,14 @@
 //!
 //! What is kept of a row is two counts and the first x that differs: sums of integers.
 
-use std::fs::File;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use analysis::pieces::Pieces;
 use hw_model::design::Design;
-use vectors::checksum::{Checksum, checksum};
+use vectors::checksum::Checksum;
 
+use super::digest::digest;
 use super::rows::{check_rows, fits};
 use crate::error::ShardError;
 use crate::job::{JobError, RtlWork};
@@ -121,9 +121,4 @@ impl Kind for Rtl {
         let rows = parts.into_iter().zip(exponents.iter()).map(row).collect::<Result<Vec<_>, _>>()?;
         Ok(Merged::Rtl(RtlReport::new(self.design.config().name.clone(), rows)))
     }
-}
-
-/// Size and SHA-256 of a file.
-pub(crate) fn digest(path: &Path) -> Result<Checksum, ShardError> {
-    File::open(path).and_then(checksum).map_err(|cause| ShardError::Io { path: path.to_owned(), cause })
 }
