@@ -11,7 +11,7 @@ pub trait Kind: Send + Sync {
     /// How many pieces the job has.
     fn pieces(&self) -> u64;
 
-    /// How many pieces are measured between two checkpoints, at least.
+    /// How many pieces each thread has between two checkpoints, at least.
     fn step(&self) -> u64;
 
     /// Whether a shard may have so many pieces.

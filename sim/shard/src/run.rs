@@ -93,7 +93,8 @@ impl<'a> Shard<'a> {
 
     /// Measures some pieces more, and returns their number.
     fn step(&mut self) -> Result<u64, ShardError> {
-        let end = self.pieces.end.min(self.done + self.kind.step());
+        let threads = rayon::current_num_threads() as u64;
+        let end = self.pieces.end.min(self.done + self.kind.step() * threads);
         let measured = (self.done..end).into_par_iter().map(|piece| self.kind.measure(piece));
         for part in measured.collect::<Result<Vec<_>, _>>()? {
             self.kind.join(&mut self.parts, part);

@@ -15,8 +15,8 @@ use crate::kind::Kind;
 use crate::merged::Merged;
 use crate::part::Part;
 
-/// Claims between two checkpoints: about a second.
-const STEP: u64 = 64;
+/// Claims of a thread between two checkpoints: about a second.
+const STEP: u64 = 16;
 
 /// Methods at single exponents.
 pub(super) struct AtExponents {

@@ -19,8 +19,8 @@ use crate::kind::Kind;
 use crate::merged::Merged;
 use crate::part::{Part, RowPart};
 
-/// Pieces between two checkpoints, at least: tenths of a second.
-const STEP: u64 = 64;
+/// Pieces of a thread between two checkpoints, at least: tenths of a second.
+const STEP: u64 = 16;
 
 /// No error is greater, as a fraction of full intensity: hardware, ROM and x^n lie in [0, 1], and the rational tail of a
 /// real row may be a little above.

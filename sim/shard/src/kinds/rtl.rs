@@ -21,8 +21,8 @@ use crate::rtl::compare;
 
 /// x of a piece: tenths of a second in a simulator, so that starting the simulator takes no time to speak of.
 const LENGTH: i64 = 1 << 21;
-/// Pieces between two checkpoints, at least.
-const STEP: u64 = 8;
+/// Pieces of a thread between two checkpoints, at least.
+const STEP: u64 = 2;
 
 /// The RTL of a configuration beside the model.
 pub(super) struct Rtl {
