@@ -3,7 +3,7 @@
 SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
-.PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive formal formal-quick synth gates mutants mutants-rust fuzz \
+.PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive cluster formal formal-quick synth gates mutants mutants-rust fuzz \
 	alterations c header install uvm clean help
 
 CARGO ?= cargo
@@ -121,6 +121,10 @@ exhaustive: setup ## every representable x: the error of every preset, and the R
 	@$(call REPORT,--exhaustive --out $(RESULTS)/exhaustive); \
 	echo "Results are in $(RESULTS)/exhaustive/."
 	$(CARGO) run --locked --quiet --release --bin exhaustive -- $(PRESETS)
+
+cluster: ## a Slurm of four nodes here: a worker killed, a node lost, and the report of one machine; wants root, minutes
+	$(CARGO) build --release --locked --quiet --bin blysk
+	scripts/cluster --blysk $(TARGET)/release/blysk
 
 formal: setup-all ## prove the RTL: handshake, arithmetic, pipeline; some minutes
 	@$(FORMAL) --out $(RESULTS)/formal

@@ -65,7 +65,10 @@ short!(
     manifest,
     bundle,
     certificate,
-    specialised
+    specialised,
+    job,
+    plan,
+    result
 );
 
 /// The seed gives the same inputs again: a finding can be made again.

@@ -27,6 +27,12 @@ pub const MOST_CYCLES: usize = 1 << 24;
 /// The most words of a ROM image: as many as a list of exponents is long.
 pub const MOST_WORDS: u64 = MAX_COUNT as u64;
 
+/// The most shards of a job, 2^16: more than a cluster's array of jobs takes at once.
+pub const MOST_SHARDS: u32 = 1 << 16;
+
+/// The most pieces that a job is cut into, 2^32: so many are numbered, and none of them is kept in memory.
+pub const MOST_PIECES: u64 = 1 << 32;
+
 /// How many inputs a design has: every x of [0, 1] in every row.
 #[must_use]
 pub fn inputs(design: &Design) -> u128 {
@@ -52,11 +58,13 @@ pub enum Sweep {
     Design,
     /// `blysk refine`: every x for each set of integers that is tried.
     Refine,
+    /// `blysk shard run`: every x of every exponent of one shard.
+    Shard,
 }
 
 impl Sweep {
     /// Every sweep, in the order above.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Report,
         Self::Certify,
         Self::Stability,
@@ -65,6 +73,7 @@ impl Sweep {
         Self::Compact,
         Self::Design,
         Self::Refine,
+        Self::Shard,
     ];
 
     /// What its errors call it.
@@ -79,6 +88,7 @@ impl Sweep {
             Self::Compact => "strategy compact",
             Self::Design => "design",
             Self::Refine => "refine",
+            Self::Shard => "shard",
         }
     }
 
@@ -94,7 +104,7 @@ impl Sweep {
     #[must_use]
     pub const fn looks(self) -> u128 {
         match self {
-            Self::Report | Self::Certify | Self::Stability | Self::Pareto => 1,
+            Self::Report | Self::Certify | Self::Stability | Self::Pareto | Self::Shard => 1,
             // Two data paths, and with --allow-codes one pass for each width of the output.
             Self::Specialise | Self::Compact => 16,
             // A pass for every change that is tried.
@@ -118,6 +128,7 @@ impl Sweep {
             Self::Pareto => "fewer --exponents, or --every K",
             Self::Specialise => "a scene of fewer exponents",
             Self::Compact => "fewer exponents, or another strategy",
+            Self::Shard => "more --shards",
         }
     }
 

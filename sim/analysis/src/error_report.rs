@@ -14,6 +14,7 @@ use vectors::progress::Progress;
 use vectors::stimulus::corners::Corners;
 
 use super::approximation::{ApproximationError, Extent, approximation};
+use super::pieces::{Piece, Pieces};
 use super::sweep::{RowErrors, Xs, input_quantisation, sweep_row};
 
 /// Points spread evenly over the epicentre, and again over [0, 1].
@@ -88,10 +89,18 @@ pub struct ErrorReport {
 /// When an exponent is out of range, which a design does not have.
 pub fn error_report(design: &Design, options: Options, progress: &dyn Progress) -> Result<ErrorReport, FitError> {
     let errors = if options.exhaustive { sweep_everything(design, progress) } else { sweep_samples(design, progress) };
+    report_of(design, options, &errors)
+}
+
+/// The report of errors that were measured already, a [`RowErrors`] for each row of the design.
+///
+/// # Errors
+/// As [`error_report`].
+pub fn report_of(design: &Design, options: Options, errors: &[RowErrors]) -> Result<ErrorReport, FitError> {
     let rows = design
         .rows()
         .par_iter()
-        .zip(&errors)
+        .zip(errors)
         .map(|(row, errors)| error_row(design, row.exponent, errors, options.bound))
         .collect::<Result<Vec<_>, _>>()?;
     let worst = errors.iter().map(|row| row.implementation.error).fold(0.0, f64::max);
@@ -127,22 +136,31 @@ impl ErrorReport {
     }
 }
 
+/// The pieces of an exhaustive report. Errors of the pieces of a row, put together in their order by
+/// [`RowErrors::and`], are the errors of the row.
+#[must_use]
+pub fn pieces(design: &Design) -> Pieces {
+    Pieces::new(design, PIECE)
+}
+
+/// The errors of one of [`pieces`].
+#[must_use]
+pub fn sweep_piece(design: &Design, piece: Piece) -> RowErrors {
+    sweep_row(design, piece.address, Xs::Run { first: piece.first, last: piece.last })
+}
+
 fn sweep_everything(design: &Design, progress: &dyn Progress) -> Vec<RowErrors> {
-    let greatest = design.datapath().front_end().greatest;
-    let pieces = greatest / PIECE + 1;
-    let depth = design.rom().depth();
-    let swept: Vec<RowErrors> = (0..depth as i64 * pieces)
+    let pieces = pieces(design);
+    let swept: Vec<RowErrors> = (0..pieces.count())
         .into_par_iter()
         .map(|index| {
-            let (address, piece) = (index / pieces, index % pieces);
-            let last = (piece * PIECE + PIECE - 1).min(greatest);
-            let errors = sweep_row(design, address as u32, Xs::Run { first: piece * PIECE, last });
+            let errors = sweep_piece(design, pieces.at(index));
             progress.advance(errors.samples);
             errors
         })
         .collect();
     swept
-        .chunks(pieces as usize)
+        .chunks(pieces.per_row() as usize)
         .map(|pieces| pieces.iter().fold(RowErrors::NONE, |sum, piece| sum.and(*piece)))
         .collect()
 }

@@ -11,20 +11,30 @@ use bounds::certify::hardware::{HardwareClaim, HardwareError, HardwareRow, Worst
 use hw_model::design::Design;
 use vectors::progress::Progress;
 
-use super::error_report::{ErrorRow, Options, error_report};
+use super::error_report::{ErrorReport, ErrorRow, Options, error_report};
 
 /// More than what the sweep's errors can be short of the truth, 2⁻⁵³, by as much again: the checker's
 /// enclosures of a power reach to both its neighbours.
 const SWEEP_ERROR: f64 = f64::EPSILON;
+
+/// The report that a claim is made of. The bound decides about nothing in it.
+pub const OPTIONS: Options = Options { bound: 1.0, exhaustive: true };
 
 /// Sweeps the whole configuration.
 ///
 /// # Errors
 /// When there can be no certificate.
 pub fn certify_hardware(design: &Design, progress: &dyn Progress) -> Result<HardwareClaim, HardwareError> {
+    points(design)?;
+    claim_of(design, &error_report(design, OPTIONS, progress)?)
+}
+
+/// The claim of a configuration whose exhaustive report was made already, with [`OPTIONS`].
+///
+/// # Errors
+/// As [`certify_hardware`].
+pub fn claim_of(design: &Design, report: &ErrorReport) -> Result<HardwareClaim, HardwareError> {
     let points = points(design)?;
-    let options = Options { bound: 1.0, exhaustive: true };
-    let report = error_report(design, options, progress)?;
     let rows: Vec<HardwareRow> =
         (0..).zip(&report.rows).map(|(address, row)| hardware_row(design, address, row)).collect();
     Ok(HardwareClaim {

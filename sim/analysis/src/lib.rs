@@ -9,6 +9,7 @@ pub mod error_report;
 pub mod hardware_claim;
 pub mod hardware_cost;
 pub mod pareto;
+pub mod pieces;
 mod reference_product;
 pub mod refine;
 #[cfg(feature = "figures")]

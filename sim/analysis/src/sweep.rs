@@ -12,12 +12,14 @@ use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::highlight::{phong, phong_at_s};
 use multiversion::multiversion;
+use serde::{Deserialize, Serialize};
 
 /// Samples that go through the pipeline together: their arrays stay in the first-level cache.
 const BLOCK: usize = 1024;
 
 /// A greatest error and the x (bits in the input format) where it occurs first.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Peak {
     /// As a fraction of full intensity.
     pub error: f64,
@@ -47,7 +49,8 @@ impl Peak {
 }
 
 /// The greatest errors of one row over the samples seen.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct RowErrors {
     /// ROM row against real row.
     pub coefficient: Peak,

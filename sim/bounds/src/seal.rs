@@ -21,6 +21,8 @@ pub trait Sealed: Clone + Serialize + DeserializeOwned {
     const VERSION: u32;
     /// The command that writes such files, for messages.
     const WRITER: &'static str;
+    /// What messages call such a file.
+    const NOUN: &'static str = "certificate";
 
     /// The seal, as the field `sha256` has it.
     fn sha256(&self) -> &str;
@@ -33,8 +35,10 @@ pub trait Sealed: Clone + Serialize + DeserializeOwned {
 #[non_exhaustive]
 pub enum Unreadable {
     /// No JSON, or other fields.
-    #[error("it is not a certificate as {writer} writes it: {cause}")]
+    #[error("it is not a {noun} as {writer} writes it: {cause}")]
     Json {
+        /// What such a file is called.
+        noun: &'static str,
         /// The command that writes such files.
         writer: &'static str,
         /// What is wrong with the JSON.
@@ -98,7 +102,7 @@ pub fn to_json<T: Sealed>(file: &T) -> String {
 /// # Errors
 /// When it is none of the wanted kind and version.
 pub fn parse<T: Sealed>(text: &str) -> Result<T, Unreadable> {
-    let json = |cause| Unreadable::Json { writer: T::WRITER, cause };
+    let json = |cause| Unreadable::Json { noun: T::NOUN, writer: T::WRITER, cause };
     let Header { format, version } = serde_json::from_str(text).map_err(json)?;
     if format != T::FORMAT || version != T::VERSION {
         let (wanted, checked) = (T::FORMAT, T::VERSION);

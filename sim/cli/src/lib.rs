@@ -29,6 +29,7 @@ mod report;
 mod rom;
 mod rtl;
 mod scene;
+mod shard;
 mod signals;
 mod simulate;
 mod specialise;
@@ -76,6 +77,7 @@ enum Command {
     Mesh(mesh::Args),
     Scene(scene::Args),
     Specialise(specialise::Args),
+    Shard(shard::Args),
     Presets(presets::Args),
 }
 
@@ -126,6 +128,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Mesh(args) => mesh::run(&args, out),
         Command::Scene(args) => scene::run(&args, out),
         Command::Specialise(args) => specialise::run(&args, out),
+        Command::Shard(args) => shard::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
     }
 }

@@ -144,13 +144,18 @@ fn curves_exponent(asked: Option<f64>, design: &Design) -> anyhow::Result<f64> {
             bail!("--curves {n}: the ROM has no word for it; it has {exponents}")
         }
         Some(n) => Ok(n),
-        None if exponents.position(64.0).is_some() => Ok(64.0),
-        None => Ok(exponents.as_slice()[exponents.len() / 2]),
+        None => Ok(files::exponent_of_curves(design)),
     }
 }
 
 fn percent(fraction: f64) -> String {
     format!("{:.7} %", fraction * 100.0)
+}
+
+/// The same screen for a report that was made elsewhere, and its verdict on the epicentre.
+pub(super) fn summarise(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Result<Outcome> {
+    summary(design, report, out)?;
+    Ok(Range::default().outcome([report]))
 }
 
 /// One screen: the bound, the worst n and x, and what the error is made of there.

@@ -1,21 +1,22 @@
 //! `make exhaustive`: every x of every exponent of a preset through the RTL, against the model.
 //!
 //! `exhaustive PRESET…`; with no preset named, compact and paper. The results are streamed from the
-//! verilated RTL and compared, not stored; two runs side by side, each with half of the exponents.
+//! verilated RTL and compared, not stored. `blysk shard` does the same in shards, on many machines.
 
 use std::process::ExitCode;
 use std::time::Instant;
 
-use blysk_tests::rtl::exhaustive::{Counts, build, compare};
+use analysis::pieces::Pieces;
 use blysk_tests::rtl::workspace::emit;
 use blysk_tests::rtl::{Failure, failed};
 use hw_model::design::Design;
 use hw_model::presets;
 use rayon::prelude::*;
+use shard::rtl::{Counts, build, compare};
 use vectors::Strategy;
 
-/// Runs of consecutive addresses. More than the cores, so that both stay busy to the end.
-const SHARDS: u32 = 8;
+/// x of a run of the harness.
+const LENGTH: i64 = 1 << 22;
 
 fn main() -> ExitCode {
     let named: Vec<String> = std::env::args().skip(1).collect();
@@ -40,23 +41,16 @@ fn run(preset: &str) -> Result<Counts, Failure> {
     let config = found.config().map_err(|error| Failure(error.to_string()))?;
     let design = Design::new(config).map_err(|error| Failure(error.to_string()))?;
     let emitted = emit(&design, &format!("exhaustive-{preset}"), Strategy::Corners, 16)?;
-    let program = build(&emitted.directory)?;
-    let datapath = design.datapath();
-    let depth = datapath.rom().depth() as u32;
+    let program = build(&emitted.directory).map_err(|error| Failure(error.to_string()))?;
     let started = Instant::now();
-    let shards = SHARDS.min(depth);
-    let counts = (0..shards)
+    let pieces = Pieces::new(&design, LENGTH);
+    let counts = (0..pieces.count())
         .into_par_iter()
-        .map(|shard| {
-            let range = (shard * depth / shards, (shard + 1) * depth / shards - 1);
-            compare(&program, &emitted.directory, datapath, range)
-        })
-        .collect::<Result<Vec<_>, _>>()?
+        .map(|index| compare(&program, &emitted.directory, design.datapath(), pieces.at(index)))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(|error| Failure(error.to_string()))?
         .into_iter()
-        .fold(Counts::default(), |sum, part| Counts {
-            compared: sum.compared + part.compared,
-            different: sum.different + part.different,
-        });
+        .fold(Counts::default(), Counts::and);
     let seconds = started.elapsed().as_secs_f64();
     println!(
         "{preset}: {} results of the RTL compared with the model, {} differences ({seconds:.0} s)",

@@ -49,8 +49,11 @@ pub fn certify(bytes: &[u8], _: &Place) -> Outcome {
     outcome
 }
 
-/// The text of a certificate with its seal made right for what stands in it; none where it cannot be read.
-fn sealed<T: Serialize + DeserializeOwned>(bytes: &[u8], statement: impl Fn(&T) -> Option<String>) -> Option<String> {
+/// The text of a sealed file with its seal made right for what stands in it; none where it cannot be read.
+pub(super) fn sealed<T: Serialize + DeserializeOwned>(
+    bytes: &[u8],
+    statement: impl Fn(&T) -> Option<String>,
+) -> Option<String> {
     let mut value: Value = serde_json::from_slice(bytes).ok()?;
     value.as_object_mut()?.insert("sha256".to_owned(), Value::from(""));
     let read: T = serde_json::from_value(value.clone()).ok()?;

@@ -15,6 +15,7 @@ pub mod mutate;
 mod place;
 mod readers;
 pub mod run;
+mod shards;
 
 use std::fs;
 use std::path::PathBuf;
@@ -60,7 +61,7 @@ const fn target(name: &'static str, form: Form, run: fn(&[u8], &Place) -> Outcom
 }
 
 /// Every target, in the order of the tables.
-pub const TARGETS: [Target; 13] = [
+pub const TARGETS: [Target; 16] = [
     target("configuration", Form::Json, readers::configuration),
     target("exponents", Form::Lines, readers::exponents),
     target("scene", Form::Json, readers::scene),
@@ -74,6 +75,9 @@ pub const TARGETS: [Target; 13] = [
     target("bundle", Form::Archive, files::bundle),
     target("certificate", Form::Json, certificates::certify),
     target("specialised", Form::Json, certificates::specialised),
+    target("job", Form::Json, shards::job),
+    target("plan", Form::Json, shards::plan),
+    target("result", Form::Json, shards::result),
 ];
 
 impl Target {

@@ -2,7 +2,6 @@
 
 pub mod axis;
 pub mod coverage;
-pub mod exhaustive;
 pub mod faults;
 pub mod fusesoc;
 pub mod in_source;

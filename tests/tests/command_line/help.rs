@@ -6,7 +6,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "report",
     "vectors",
     "rtl",
@@ -26,6 +26,7 @@ const COMMANDS: [&str; 19] = [
     "mesh",
     "scene",
     "specialise",
+    "shard",
 ];
 
 /// The command lines after "Example:" or "Examples:".
@@ -48,6 +49,8 @@ fn with_files(bench: &Bench) {
     let mine = shown.replace("UQ1.23", "UQ1.11").replace("1..=256", "1..=4");
     assert_ne!(shown, mine);
     bench.write("mine.json", mine);
+    let work = "{\"errors\": {\"configuration\": {\"file\": \"small.json\"}, \"bound\": 0.5}}";
+    bench.write("job.json", format!("{{\"format\": \"blysk job\", \"version\": 1, \"work\": {work}}}"));
 }
 
 #[test]
@@ -65,7 +68,7 @@ fn every_command_is_listed_and_has_an_example() {
         assert!(help.starts_with(listed), "{listed:?} does not begin {help}");
         let (described, _) = help.split_once("\nUsage: ").expect("a usage");
         assert!(described.lines().count() > 2, "no more than the list says: {described}");
-        let has_no_format = ["vectors", "rtl", "check", "document", "mesh"].contains(&command);
+        let has_no_format = ["vectors", "rtl", "check", "document", "mesh", "shard"].contains(&command);
         assert!(help.contains("--format") || has_no_format, "{help}");
     }
     assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));

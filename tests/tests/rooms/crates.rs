@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 /// Each crate of the product, and the crates of the workspace that it may know. A room that is not here has no place
 /// yet.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 13] = [
     ("hw-model", &[]),
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),
@@ -20,9 +20,10 @@ const ARROWS: [(&str, &[&str]); 12] = [
     ("analysis", &["hw-model", "vectors", "bounds", "plot"]),
     ("scenes", &["hw-model", "vectors", "bounds", "plot"]),
     ("blysk-python", &["hw-model", "vectors", "sim", "model", "bounds", "analysis"]),
+    ("shard", &["hw-model", "vectors", "bounds", "analysis"]),
     ("document", &["hw-model", "vectors", "sim", "plot"]),
     // What it shows is drawn by those it asks.
-    ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "document"]),
+    ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "shard", "document"]),
 ];
 
 /// What tests and benchmarks of a crate may know besides: those of the analyses time the clocked

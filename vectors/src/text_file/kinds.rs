@@ -58,6 +58,15 @@ pub const MESH: TextKind =
 /// A certificate of `blysk certify` or `blysk specialise`, as JSON.
 pub const CERTIFICATE: TextKind = TextKind::whole("certificate", 256 * MIB, "write the certificate again");
 
+/// A job of `blysk shard`, as JSON.
+pub const JOB: TextKind = TextKind::whole("job", 16 * MIB, "docs/scale/README.md has jobs to start from");
+
+/// What `blysk shard plan` wrote.
+pub const SHARD_PLAN: TextKind = TextKind::whole("plan", 64 * MIB, "write the plan again");
+
+/// What `blysk shard run` wrote: the result of a shard, or how far a shard has come.
+pub const SHARD_RESULT: TextKind = TextKind::whole("result", 256 * MIB, "run the shard again");
+
 /// The manifest of a bundle.
 pub const MANIFEST: TextKind = TextKind::whole("manifest", 16 * MIB, "write the bundle again");
 

@@ -36,6 +36,13 @@ pub const COLUMNS: [&str; 13] = [
     "full_range_holds",
 ];
 
+/// The exponent of the plot of curves where none was asked for: 64, or the middle one of the configuration.
+#[must_use]
+pub fn exponent_of_curves(design: &Design) -> f64 {
+    let exponents = design.rom().exponents();
+    if exponents.position(64.0).is_some() { 64.0 } else { exponents.as_slice()[exponents.len() / 2] }
+}
+
 /// Adds every file of a report to `set`. `curves` is an exponent of the ROM, for the plot of curves.
 ///
 /// # Errors

@@ -6,6 +6,6 @@ pub mod files;
 pub mod pareto;
 pub mod pareto_figures;
 pub mod stability;
-mod written;
+pub mod written;
 
 pub use written::FilesError;

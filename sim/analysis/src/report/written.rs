@@ -39,13 +39,19 @@ pub enum FilesError {
     },
 }
 
-/// The text of the table `name`.
-pub(super) fn table<T: Serialize>(name: &str, rows: &[T]) -> Result<Vec<u8>, FilesError> {
+/// Rows as the text of the table `name`.
+///
+/// # Errors
+/// When a row is no flat record.
+pub fn table<T: Serialize>(name: &str, rows: &[T]) -> Result<Vec<u8>, FilesError> {
     output_text::csv(rows).map_err(|cause| FilesError::Csv { name: name.to_owned(), cause })
 }
 
-/// The text of the file `name`.
-pub(super) fn json<T: Serialize + ?Sized>(name: &str, value: &T) -> Result<String, FilesError> {
+/// A value as the text of the JSON file `name`.
+///
+/// # Errors
+/// When it has no JSON.
+pub fn json<T: Serialize + ?Sized>(name: &str, value: &T) -> Result<String, FilesError> {
     output_text::json(value).map_err(|cause| FilesError::Json { name: name.to_owned(), cause })
 }
 

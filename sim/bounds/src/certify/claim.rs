@@ -1,5 +1,6 @@
 //! What is claimed, and what proves it.
 
+use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method};
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +43,14 @@ impl Stretch {
             Self::Tail => "tail",
         }
     }
+}
+
+/// What is claimed of some methods at some exponents: method by method, region by region, n rising.
+#[must_use]
+pub fn subjects(methods: &[Method], exponents: &Exponents) -> Vec<(Method, Stretch, f64)> {
+    let of = |method: Method| Stretch::of(method).iter().map(move |&region| (method, region));
+    let parts = methods.iter().flat_map(|&method| of(method));
+    parts.flat_map(|(method, region)| exponents.iter().map(move |exponent| (method, region, exponent))).collect()
 }
 
 /// How an error of a method is measured.

@@ -1,6 +1,6 @@
 //! `blysk certify`: rigorous bounds, and certificates.
 
-mod print;
+pub(super) mod print;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use super::table::{Format, write_folded};
 use analysis::hardware_claim::certify_hardware;
 use bounds::certify::certificate::{Certificate, Claim};
 use bounds::certify::check::{Checked, check};
-use bounds::certify::claim::{Claims, Stretch};
+use bounds::certify::claim::{Claims, Stretch, subjects};
 use bounds::certify::hardware::points;
 use bounds::certify::search::{claim_every_exponent, claim_exponent};
 use bounds::seal::identity;
@@ -153,12 +153,7 @@ fn claim(args: &Args) -> anyhow::Result<Claim> {
     // clap demands one of them.
     let exponents = exponents.as_ref().context("say --exponents, --all-real-n, --preset or --config")?;
     let methods = args.method.as_ref().map_or(&Method::ALL[..], |methods| &methods.0);
-    let pairs = methods.iter().flat_map(|&method| {
-        Stretch::of(method)
-            .iter()
-            .flat_map(move |&region| exponents.iter().map(move |exponent| (method, region, exponent)))
-    });
-    let pairs: Vec<_> = pairs.collect();
+    let pairs = subjects(methods, exponents);
     let bar = Bar::counting(Some(pairs.len() as u64), "claims");
     let claims = pairs
         .into_par_iter()

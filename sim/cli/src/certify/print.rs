@@ -19,7 +19,7 @@ const NARROW: f64 = 1e-6;
 /// Digits of a bound in a table.
 const DIGITS: usize = 9;
 
-pub(super) fn claim(claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<()> {
+pub(crate) fn claim(claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<()> {
     match (claim, format) {
         (Claim::Exponents(claims), Format::Table) => exponents_table(claims, out),
         (Claim::Exponents(claims), format) => exponent_rows(&claims.claims).print(out, format, 17),

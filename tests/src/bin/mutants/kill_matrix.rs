@@ -1,6 +1,7 @@
 //! What was killed, counted: by class, by bundle, and each survivor with its reason.
 
 use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::Path;
 
 use blysk_tests::rtl::Failure;
@@ -64,28 +65,26 @@ pub(crate) fn judge(preset: &str, mutants: &[Mutant]) -> bool {
     whole.all > 0 && whole.percent() >= 99.0 && model.all > 0 && model.killed == model.all
 }
 
-pub(crate) fn write(path: &Path, mutants: &[Mutant]) -> Result<(), Failure> {
-    let written = || -> csv::Result<()> {
-        let mut csv = csv::Writer::from_path(path)?;
-        csv.write_record(["class", "mutant", "default", "by", "compact", "by", "why"])?;
-        for mutant in mutants {
-            let (default, compact) = (mutant.by_default.as_ref(), mutant.by_compact.as_ref());
-            let survives = default.is_none() || compact.is_none();
-            let why = if survives { mutant.why() } else { String::new() };
-            csv.write_record([
-                mutant.class,
-                &mutant.name,
-                mutant.fate(default),
-                default.map_or("", String::as_str),
-                mutant.fate(compact),
-                compact.map_or("", String::as_str),
-                &why,
-            ])?;
-        }
-        csv.flush()?;
-        Ok(())
-    };
-    written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
+/// Writes every mutant with what became of it, as CSV.
+pub(crate) fn write(out: impl Write, mutants: &[Mutant]) -> csv::Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record(["class", "mutant", "default", "by", "compact", "by", "why"])?;
+    for mutant in mutants {
+        let (default, compact) = (mutant.by_default.as_ref(), mutant.by_compact.as_ref());
+        let survives = default.is_none() || compact.is_none();
+        let why = if survives { mutant.why() } else { String::new() };
+        csv.write_record([
+            mutant.class,
+            &mutant.name,
+            mutant.fate(default),
+            default.map_or("", String::as_str),
+            mutant.fate(compact),
+            compact.map_or("", String::as_str),
+            &why,
+        ])?;
+    }
+    csv.flush()?;
+    Ok(())
 }
 
 /// All classes together.

@@ -2,10 +2,12 @@
 //!
 //! `mutants PRESET…`; with none named, every preset. Writes `results/mutants/<preset>.csv` (every
 //! mutant, and what each bundle's testbench found) and `matrix.csv` (the kill matrix, class by class).
+//! `mutants --table PRESET` prints the table of one preset and writes no file: a piece of work for `blysk shard`.
 
 mod kill_matrix;
 mod mutant;
 
+use std::fs::File;
 use std::process::ExitCode;
 
 use blysk_tests::rtl::mutants::{Bench, HANDSHAKE, NETLIST, Outcome, class, edits, netlist, own_sources, preset, rom};
@@ -29,9 +31,18 @@ const VECTORS: u64 = 4096;
 
 fn main() -> ExitCode {
     let named: Vec<String> = std::env::args().skip(1).collect();
+    if let [option, name] = named.as_slice()
+        && option == "--table"
+    {
+        return status(table(name));
+    }
     let all = hw_model::presets::ALL.map(|preset| preset.name.to_owned());
     let presets = if named.is_empty() { all.to_vec() } else { named };
-    match run(&presets) {
+    status(run(&presets))
+}
+
+fn status(result: Result<bool, Failure>) -> ExitCode {
+    match result {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {
@@ -39,6 +50,15 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Prints the table of one preset.
+fn table(name: &str) -> Result<bool, Failure> {
+    let simulators = simulators::all()?;
+    let (icarus, verilator) = (&simulators[0], &simulators[1]);
+    let mutants = Campaign { name, design: &preset(name)?, icarus, verilator }.run()?;
+    write(std::io::stdout().lock(), &mutants).map_err(|error| Failure(error.to_string()))?;
+    Ok(!mutants.is_empty())
 }
 
 fn run(presets: &[String]) -> Result<bool, Failure> {
@@ -50,7 +70,9 @@ fn run(presets: &[String]) -> Result<bool, Failure> {
     let mut good = true;
     for name in presets {
         let mutants = Campaign { name, design: &preset(name)?, icarus, verilator }.run()?;
-        write(&results.join(format!("{name}.csv")), &mutants)?;
+        let path = results.join(format!("{name}.csv"));
+        let written = || -> csv::Result<()> { write(File::create(&path)?, &mutants) };
+        written().map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))?;
         good &= judge(name, &mutants);
         matrix.add(name, &mutants);
     }
@@ -78,7 +100,7 @@ impl Workers for Cores {
 
 impl Campaign<'_> {
     fn run(&self) -> Result<Vec<Mutant>, Failure> {
-        println!("{}: choosing vectors", self.name);
+        eprintln!("{}: choosing vectors", self.name);
         let default = self.bundle(Strategy::Mixed)?;
         let smallest = self.bundle(Strategy::Compact)?;
         let equivalent: Vec<Fault> = smallest.compact().into_iter().flat_map(Compact::equivalent).collect();
@@ -106,7 +128,7 @@ impl Campaign<'_> {
 
     fn rom(&self, default: &Bench, smallest: &Bench, equivalent: &[Fault]) -> Result<Vec<Mutant>, Failure> {
         let faults = rom::faults(self.design, SEED);
-        println!("{}: {} wrong ROMs", self.name, faults.len());
+        eprintln!("{}: {} wrong ROMs", self.name, faults.len());
         let by_default = rom::run(default, self.verilator, self.design, &faults)?;
         let by_compact = rom::run(smallest, self.verilator, self.design, &faults)?;
         let known = faults.iter().map(|wrong| {
@@ -119,7 +141,7 @@ impl Campaign<'_> {
     /// Each edit is compiled on its own, in Icarus, which compiles fastest.
     fn edits(&self, default: &Bench, smallest: &Bench, equivalent: &[Fault]) -> Result<Vec<Mutant>, Failure> {
         let edits = edits::edits(self.design.datapath());
-        println!("{}: {} wrong lines", self.name, edits.len());
+        eprintln!("{}: {} wrong lines", self.name, edits.len());
         let run = |bench: &Bench| -> Result<Vec<Outcome>, Failure> {
             edits.par_iter().map(|edit| bench.run_edit(self.icarus, edit)).collect()
         };
@@ -131,7 +153,7 @@ impl Campaign<'_> {
     }
 
     fn netlist(&self, default: &Bench, smallest: &Bench) -> Result<Vec<Mutant>, Failure> {
-        println!("{}: {MUTATIONS} netlist mutations, seed {SEED}", self.name);
+        eprintln!("{}: {MUTATIONS} netlist mutations, seed {SEED}", self.name);
         let mut found = Vec::new();
         let mut list = Vec::new();
         for bench in [default, smallest] {
@@ -147,7 +169,7 @@ impl Campaign<'_> {
             .zip(&by_compact)
             .map(|(default, compact)| default.killed_by.is_none() && compact.killed_by.is_none())
             .collect();
-        println!("{}: judging the survivors", self.name);
+        eprintln!("{}: judging the survivors", self.name);
         let datapath = self.design.datapath();
         let (directory, seconds) = (&default.directory, PROOF_SECONDS);
         let judged = netlist::judge(directory, datapath, &list, &survivors, seconds)?;

@@ -1,7 +1,7 @@
-// Streams every x of a range of addresses through the verilated pipeline, one a cycle, and writes each
-// result as a 32-bit word {status, intensity} to standard output.
+// Streams consecutive x of one address through the verilated pipeline, one a cycle, and writes each result as a 32-bit
+// word {status, intensity} to standard output.
 //
-//   exhaustive <first address> <last address> <last x> <bits of an intensity>
+//   harness <address> <first x> <last x> <bits of an intensity> <cycles until the last result is out>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -48,9 +48,9 @@ private:
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 5) return 2;
+    if (argc != 6) return 2;
     const auto number = [argv](int index) { return std::strtoull(argv[index], nullptr, 10); };
-    const auto first = number(1), last = number(2), last_x = number(3);
+    const auto address = number(1), first = number(2), last = number(3), latency = number(5);
     Stream stream{static_cast<unsigned>(number(4))};
     auto& dut = stream.dut();
 
@@ -59,16 +59,14 @@ int main(int argc, char** argv) {
     for (int i = 0; i < 2; ++i) stream.cycle();
     dut.rst_i = 0;
     dut.in_valid_i = 1;
-    for (auto address = first; address <= last; ++address) {
-        dut.address_i = address;
-        for (std::uint64_t x = 0; x <= last_x; ++x) {
-            dut.x_i = x;
-            stream.cycle();
-        }
+    dut.address_i = address;
+    for (std::uint64_t x = first; x <= last; ++x) {
+        dut.x_i = x;
+        stream.cycle();
     }
     // What is still inside comes out.
     dut.in_valid_i = 0;
-    for (int i = 0; i < 64; ++i) stream.cycle();
+    for (std::uint64_t i = 0; i < latency; ++i) stream.cycle();
     stream.flush();
     return 0;
 }
