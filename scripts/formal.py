@@ -77,13 +77,14 @@ def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
         "ADDEND_WIDTH": f"{addend}_WIDTH", "ADDEND_SIGNED": f"{addend}_SIGNED",
         "T_WIDTH": f"{t}_WIDTH", "T_SIGNED": f"{t}_SIGNED" if number else 0,
         "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, f"{t}_ROUNDING"),
+        **{name: name for name in ["OPERAND_RANKS", "PRODUCT_RANKS", "SUM_RANKS"]},
     }
     for place in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
         parameters[place] = f"{t}_{place}"
     name = f"stage {number}" if number else "divisor"
     return Property(
         name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
-        files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
+        files=["blysk_round_shift", "blysk_delay", "blysk_stage"], proof=["multiply_add.sv", "trail.sv", "stage.sv"],
         needs=needs, parameters=parameters,
         bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
     )
@@ -115,13 +116,13 @@ ALL = [
                   "assign out_valid_o = valid_q[RANKS-1] && out_ready_i;")],
     ),
     Property(
-        "front end", "front_end_proof", ["blysk_round_shift", "blysk_front_end"],
-        ["fields.sv", "multiply_add.sv", "front_end.sv"],
+        "front end", "front_end_proof", ["blysk_round_shift", "blysk_delay", "blysk_front_end"],
+        ["fields.sv", "multiply_add.sv", "trail.sv", "front_end.sv"],
         bugs=[
             Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ",
                 needs="HAS_POLYNOMIAL"),
-            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == REGION_TAIL",
-                "tail_x_d = region_d == REGION_ZERO", needs="HAS_TAIL"),
+            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region == REGION_TAIL",
+                "tail_x_d = region == REGION_ZERO", needs="HAS_TAIL"),
             Bug("hand-over not included", "blysk_front_end.sv", "COMPARE'(x) < ", "COMPARE'(x) <= ",
                 needs="SEVERAL_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
@@ -150,7 +151,7 @@ ALL = [
         ],
     ),
     Property(
-        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
+        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_delay", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
         ["trail.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL", bits=12,
         bugs=[Bug("digits not moved up", "blysk_tail_digits.sv", "(digits_d << 1) |", "digits_d |")],
     ),

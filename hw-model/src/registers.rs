@@ -18,6 +18,10 @@
 //! | `X`, `V`, `T(j)`          | the input, the variable, the result of stage j                  |            |
 //! | `TailX`, `Divisor`, `Remainder`, `Digits` | the division                                    |            |
 //! | `Region`, `Status`, `Intensity` | which part answers, the flags, the answer                 |            |
+//! | `Product(j)`, `Sum(j)`    | product and sum of stage j, of the divisor for j = 0            |            |
+//! | `Distance(k)`, `Beyond`   | how far x lies below the start of segment k; whether it does    |            |
+//!
+//! The last four stand only in a pipeline that has ranks for them ([`crate::pipelining`]).
 //!
 //! Segments count from x = 1 downwards: segment 0 begins at 1. Names of segment 0 have no suffix (`c3`, `shift`), those
 //! of segment 1 `_outer` (`c3_outer`, `shift_outer`; its `HandOver` is `hand_over`), those of segment k ≥ 2 `_outer`
@@ -68,6 +72,14 @@ pub enum Register {
     Status,
     /// The answer.
     Intensity,
+    /// The product of stage j, whole; of the divisor for j = 0.
+    Product(usize),
+    /// The sum of stage j before it is rounded; of the divisor for j = 0.
+    Sum(usize),
+    /// 1 − x, or for segment k ≥ 1 hand-over − x.
+    Distance(usize),
+    /// For each further segment whether x lies below its hand-over: bit k − 1 for segment k.
+    Beyond,
 }
 
 /// Registers of segment 0 in the ROM: c4 to c0, cut, shift, A and B.
@@ -102,12 +114,17 @@ const SHIFT: [&str; MAX_SEGMENTS] = of_segments!("shift", "shift_outer");
 /// Segment 0 begins at x = 1, which no register holds.
 const HAND_OVER: [&str; MAX_SEGMENTS] = of_segments!("one", "hand_over");
 const T: [&str; MAX_DEGREE + 1] = ["t0", "t1", "t2", "t3", "t4"];
+const PRODUCT: [&str; MAX_DEGREE + 1] = ["divisor_product", "product1", "product2", "product3", "product4"];
+const SUM: [&str; MAX_DEGREE + 1] = ["divisor_sum", "sum1", "sum2", "sum3", "sum4"];
+const DISTANCE: [&str; MAX_SEGMENTS] = of_segments!("distance", "distance_outer");
+/// Registers of the least pipeline.
+const LEAST: usize = Register::ROM_COUNT + MAX_DEGREE + 9;
 
 impl Register {
     /// How many registers a ROM word can have.
     pub const ROM_COUNT: usize = FIRST + (MAX_SEGMENTS - 1) * FURTHER;
     /// How many registers there are.
-    pub const COUNT: usize = Self::ROM_COUNT + MAX_DEGREE + 9;
+    pub const COUNT: usize = LEAST + 2 * (MAX_DEGREE + 1) + MAX_SEGMENTS + 1;
 
     /// Every register of the ROM, in the order in which they are packed into a word from bit 0 up.
     pub fn in_rom() -> impl Iterator<Item = Self> {
@@ -122,7 +139,10 @@ impl Register {
         let stages = (1..=MAX_DEGREE).map(Self::T);
         let division = [Self::TailX, Self::Divisor, Self::Remainder, Self::Digits];
         let last = [Self::Region, Self::Status, Self::Intensity];
-        Self::in_rom().chain([Self::X, Self::V]).chain(stages).chain(division).chain(last)
+        let least = Self::in_rom().chain([Self::X, Self::V]).chain(stages).chain(division).chain(last);
+        let lines = || 0..=MAX_DEGREE;
+        let further = lines().map(Self::Product).chain(lines().map(Self::Sum));
+        least.chain(further).chain((0..MAX_SEGMENTS).map(Self::Distance)).chain([Self::Beyond])
     }
 
     /// Its place in [`Register::all`].
@@ -148,6 +168,10 @@ impl Register {
             Self::Region => Self::ROM_COUNT + MAX_DEGREE + 6,
             Self::Status => Self::ROM_COUNT + MAX_DEGREE + 7,
             Self::Intensity => Self::ROM_COUNT + MAX_DEGREE + 8,
+            Self::Product(line) => LEAST + line,
+            Self::Sum(line) => LEAST + MAX_DEGREE + 1 + line,
+            Self::Distance(segment) => LEAST + 2 * (MAX_DEGREE + 1) + segment,
+            Self::Beyond => LEAST + 2 * (MAX_DEGREE + 1) + MAX_SEGMENTS,
         }
     }
 
@@ -178,6 +202,10 @@ impl Register {
             Self::Region => "region",
             Self::Status => "status",
             Self::Intensity => "intensity",
+            Self::Product(line) => PRODUCT[line],
+            Self::Sum(line) => SUM[line],
+            Self::Distance(segment) => DISTANCE[segment],
+            Self::Beyond => "beyond",
         }
     }
 
