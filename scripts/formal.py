@@ -22,7 +22,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / "target/venv/bin"
-EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in ["parabolas", "quartics"]]
+NAMES = ["parabolas", "quartics", "compact_deep", "precise_deep"]
+EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in NAMES]
 PROPERTIES = ROOT / "hw-model/rtl/formal"
 RTL = [
     "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
@@ -140,7 +141,7 @@ ALL = [
     Property(
         "pipeline, 4 bits", "blysk", RTL,
         ["rom.sv", "fields.sv", "trail.sv", "multiply_add.sv", "line.sv", "pipeline.svh"],
-        inside="blysk", needs="HAS_POLYNOMIAL", carries_word=True, bits=4, bugs=[WRONG_V],
+        inside="blysk", needs="PLAIN_LINES", carries_word=True, bits=4, bugs=[WRONG_V],
     ),
     Property(
         "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
@@ -173,7 +174,15 @@ def constants(package):
         found[name] = found[value] if value in found else int(value)
     degrees = {f"DEGREE_{degree}": int(found["HAS_POLYNOMIAL"] and found["DEGREE"] == degree) for degree in range(1, 5)}
     several = {"SEVERAL_SEGMENTS": found["SEGMENTS"] - 1, "SEVERAL_STAGES": found["DEGREE"] - 1}
-    return {"SHIFT_STORED": 0} | found | several | degrees
+    # Whether stages have no registers but those of their results: what others hold, no property outside a stage sees.
+    further = ranks_inside(found)
+    plain = {"PLAIN_LINES": int(found["HAS_POLYNOMIAL"] and not further)}
+    return {"SHIFT_STORED": 0} | found | several | degrees | plain
+
+
+def ranks_inside(package):
+    """The ranks of registers inside a multiply-add, before that of its result."""
+    return sum(package[f"{part}_RANKS"] for part in ["OPERAND", "PRODUCT", "SUM"])
 
 
 def coefficient(segment, power):
@@ -247,8 +256,10 @@ class Job:
         if bug and bug.parameter:
             self.parameters[bug.parameter] -= bug.less
         self.word = package["ROM_WIDTH"] + 1
-        # A proof needs no more than its induction; a bug shows once a result has come out, and stalled.
-        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3
+        # A proof needs no more than its induction, over the ranks inside a part; a bug shows once a result has come
+        # out, and stalled.
+        inside = max(ranks_inside(package), package["FRONT_END_RANKS"])
+        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3 + inside
         name = f"{prop.name} {bug.name}" if bug else prop.name
         self.place = ROOT / "target/formal" / preset / re.sub(r"\W+", "_", name)
 

@@ -66,7 +66,7 @@ module blysk_stage #(
   // ---- The product, whole -------------------------------------------------------------------------
   // A signed multiplicand meets a variable that is given a sign, which makes one bit more.
   localparam int WHOLE = MULTIPLICAND_WIDTH + VARIABLE_WIDTH + (MULTIPLICAND_SIGNED != 0 ? 1 : 0);
-  logic        [WHOLE-1:0]     whole, kept;
+  logic        [WHOLE-1:0]     whole, product_d, kept;
   logic signed [SUM_WIDTH-1:0] product;
 
   if (MULTIPLICAND_SIGNED != 0) begin : signed_product
@@ -81,14 +81,60 @@ module blysk_stage #(
     assign product = SUM_WIDTH'(kept);
   end
 
+  // Where the product takes two ranks, an operand of more than PIECE bits has a lower piece of PIECE bits and an upper
+  // one with the others. Each multiplier takes a piece of both; their products, at their places, make up the whole.
+  if (PRODUCT_RANKS > 1) begin : pieces
+    localparam int PIECE   = blysk_pkg::PRODUCT_PIECE;
+    localparam int UPPERS  = MULTIPLICAND_WIDTH > PIECE ? 2 : 1;
+    localparam int COLUMNS = VARIABLE_WIDTH > PIECE ? 2 : 1;
+    // The sum of the products so far, one below the other.
+    logic [(UPPERS*COLUMNS+1)*WHOLE-1:0] sums;
+    assign sums[WHOLE-1:0] = '0;
+    assign product_d = sums[UPPERS*COLUMNS*WHOLE+:WHOLE];
+    genvar m, v;
+    for (m = 0; m < UPPERS; m = m + 1) begin : upper
+      localparam int M_WIDTH  = m + 1 < UPPERS ? PIECE : MULTIPLICAND_WIDTH - m * PIECE;
+      localparam int M_SIGNED = m + 1 < UPPERS ? 0 : MULTIPLICAND_SIGNED;
+      for (v = 0; v < COLUMNS; v = v + 1) begin : by
+        localparam int V_WIDTH = v + 1 < COLUMNS ? PIECE : VARIABLE_WIDTH - v * PIECE;
+        localparam int WIDTH   = M_WIDTH + V_WIDTH + (M_SIGNED != 0 ? 1 : 0);
+        localparam int NUMBER  = m * COLUMNS + v;
+        logic [M_WIDTH-1:0] of_multiplicand;
+        logic [V_WIDTH-1:0] of_variable;
+        logic [WIDTH-1:0]   part_d, part_q;
+        logic [WHOLE-1:0]   placed;
+        assign of_multiplicand = multiplicand[m*PIECE+:M_WIDTH];
+        assign of_variable     = variable[v*PIECE+:V_WIDTH];
+        always_ff @(posedge clk_i) begin
+          if (load_i[OPERAND_RANKS]) part_q <= part_d;
+        end
+        if (M_SIGNED != 0) begin : signed_part
+          assign part_d = $signed(of_multiplicand) * $signed({1'b0, of_variable});
+          assign placed = WHOLE'($signed(part_q)) << ((m + v) * PIECE);
+        end else if (M_WIDTH == 1) begin : one_bit_part
+          assign part_d = of_multiplicand[0] ? WIDTH'(of_variable) : '0;
+          assign placed = WHOLE'(part_q) << ((m + v) * PIECE);
+        end else begin : unsigned_part
+          assign part_d = of_multiplicand * of_variable;
+          assign placed = WHOLE'(part_q) << ((m + v) * PIECE);
+        end
+        assign sums[(NUMBER+1)*WHOLE+:WHOLE] = sums[NUMBER*WHOLE+:WHOLE] + placed;
+      end
+    end
+    logic unused;
+    assign unused = &{1'b0, whole};
+  end else begin : whole_at_once
+    assign product_d = whole;
+  end
+
   if (PRODUCT_RANKS != 0) begin : product_register
     logic [WHOLE-1:0] product_q;
     always_ff @(posedge clk_i) begin
-      if (load_i[OPERAND_RANKS]) product_q <= whole;
+      if (load_i[OPERAND_RANKS+PRODUCT_RANKS-1]) product_q <= product_d;
     end
     assign kept = product_q;
   end else begin : no_product_register
-    assign kept = whole;
+    assign kept = product_d;
   end
 
   // ---- The sum, at the common place ---------------------------------------------------------------

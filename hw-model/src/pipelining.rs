@@ -23,17 +23,23 @@ pub struct Pipelining {
     pub front_end: u32,
     /// A register before each multiplier, which only copies its operands.
     pub operands: bool,
-    /// Ranks behind each multiplier, 0 or 1, which hold the whole product.
+    /// Ranks behind each multiplier: 1 holds the whole product; 2 hold the products of pieces of the operands, of at most
+    /// [`PIECE`] bits each, and then the whole.
     pub product: u32,
     /// A register behind each sum, before it is rounded.
     pub sum: bool,
 }
+
+/// Bits of the pieces in which operands are multiplied where the product takes two ranks: what a block multiplies.
+pub const PIECE: u32 = 18;
 
 /// A step of a multiply-add that ends in a rank of registers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineStep {
     /// The operands are copied.
     Operands,
+    /// The products of pieces of the operands.
+    Partial,
     /// The product, whole.
     Product,
     /// The sum, before it is rounded.
@@ -57,8 +63,8 @@ impl Pipelining {
         if self.front_end > 1 {
             return Err("\"front_end\" is the number of ranks inside the front end: use 0 or 1".to_owned());
         }
-        if self.product > 1 {
-            return Err("\"product\" is the number of ranks behind a multiplier: use 0 or 1".to_owned());
+        if self.product > 2 {
+            return Err("\"product\" is the number of ranks behind a multiplier: use 0, 1 or 2".to_owned());
         }
         Ok(())
     }
@@ -96,7 +102,8 @@ impl Pipelining {
     pub fn line_step(&self, index: usize) -> LineStep {
         let steps = [
             (LineStep::Operands, self.operands as usize),
-            (LineStep::Product, self.product as usize),
+            (LineStep::Partial, usize::from(self.product > 1)),
+            (LineStep::Product, usize::from(self.product > 0)),
             (LineStep::Sum, self.sum as usize),
         ];
         let all = steps.into_iter().flat_map(|(step, ranks)| std::iter::repeat_n(step, ranks));

@@ -104,8 +104,10 @@ impl Datapath {
     /// Adds the products and sums that a rank shows, where there are registers for them: they follow from what else it
     /// shows.
     fn with_lines(&self, rank: usize, shown: &mut Signals) {
+        type Of = fn(usize) -> Register;
         let kept = [
-            (self.pipelining.product > 0, LineStep::Product, Register::Product as fn(usize) -> Register),
+            (self.pipelining.product > 1, LineStep::Partial, (|line| Register::Partial(line, 0)) as Of),
+            (self.pipelining.product > 0, LineStep::Product, Register::Product),
             (self.pipelining.sum, LineStep::Sum, Register::Sum),
         ];
         for (_, step, register) in kept.into_iter().filter(|(there, ..)| *there) {

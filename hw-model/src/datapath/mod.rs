@@ -20,6 +20,7 @@ mod compose;
 mod flight;
 pub mod formats;
 pub mod front_end;
+mod inside;
 mod keep;
 mod lanes;
 mod parts;

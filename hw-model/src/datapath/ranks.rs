@@ -26,7 +26,6 @@ use super::compose::{Anything, Lines};
 use super::front_end::{Region, Variable};
 use super::parts::Datapath;
 use super::signals::{Signals, Status};
-use super::stage::MultiplyAdd;
 
 impl Datapath {
     /// What rank 0 takes in: address, x, and the ROM word.
@@ -109,46 +108,6 @@ impl Datapath {
             v: front_end.variable_at(x, region, distance, before.row.shift(segment)).to_bits(),
             tail_x: front_end.tail_x(x, region).to_bits(),
             ..*before
-        }
-    }
-
-    /// A step of a multiply-add of the polynomial, or of the divisor's product and sum for line 0.
-    pub(super) fn line_step<L: Lane>(&self, line: usize, step: LineStep, held: &mut Signals) {
-        let Some(multiply_add) = self.line(line) else { return };
-        let degree = self.degree();
-        let of = |register| L::from_bits(held.get(register));
-        let product = || {
-            let (multiplicand, variable) = match line {
-                0 => (Register::TailB, Register::TailX),
-                1 => (Register::C(0, degree), Register::V),
-                _ => (Register::T(line - 1), Register::V),
-            };
-            of(multiplicand) * of(variable)
-        };
-        let kept = |register, there: bool, computed: &dyn Fn() -> L| if there { of(register) } else { computed() };
-        let sum = || {
-            let addend = if line == 0 { Register::TailA } else { Register::C(0, degree - line) };
-            let product = kept(Register::Product(line), self.pipelining.product > 0, &product);
-            multiply_add.sum(product, of(addend))
-        };
-        match step {
-            LineStep::Operands => {}
-            LineStep::Product => held.product[line] = product().to_bits(),
-            LineStep::Sum => held.sum[line] = sum().to_bits(),
-            LineStep::Result => {
-                let result = multiply_add.rounded(kept(Register::Sum(line), self.pipelining.sum, &sum)).to_bits();
-                match line.checked_sub(1) {
-                    Some(index) => held.t[index] = result,
-                    None => held.division.divisor = result,
-                }
-            }
-        }
-    }
-
-    fn line(&self, line: usize) -> Option<&MultiplyAdd> {
-        match line.checked_sub(1) {
-            Some(index) => self.stages().get(index),
-            None => self.divider.as_ref().map(|divider| &divider.divisor),
         }
     }
 

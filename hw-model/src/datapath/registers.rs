@@ -1,6 +1,5 @@
 //! The registers of each rank: what it holds, in which format, and whether it computes it or carries it on.
 
-use crate::config::ConfigError;
 use crate::format::QFormat;
 use crate::pipelining::LineStep;
 use crate::registers::Register;
@@ -90,7 +89,7 @@ impl Datapath {
             list.add(Register::V, formats.v, rank == front_end);
         }
         if let Some((stage, step)) = self.polynomial_step(rank) {
-            self.line_register(stage, step, list);
+            self.line_registers(stage, step, list);
         }
         for (stage, &format) in (1..).zip(formats.t()) {
             let computed = self.rank_of(Register::T(stage));
@@ -100,15 +99,18 @@ impl Datapath {
         }
     }
 
-    /// Product or sum of a multiply-add, in the rank that computes it: the next step reads it.
-    fn line_register(&self, line: usize, step: LineStep, list: &mut List) {
-        let register = match step {
-            LineStep::Product => Register::Product(line),
-            LineStep::Sum => Register::Sum(line),
-            LineStep::Operands | LineStep::Result => return,
+    /// Products or sum of a multiply-add, in the rank that computes them: the next step reads them.
+    fn line_registers(&self, line: usize, step: LineStep, list: &mut List) {
+        let registers: Vec<Register> = match step {
+            LineStep::Partial => self.pieces(line).map(|piece| Register::Partial(line, piece.part)).collect(),
+            LineStep::Product => vec![Register::Product(line)],
+            LineStep::Sum => vec![Register::Sum(line)],
+            LineStep::Operands | LineStep::Result => Vec::new(),
         };
-        if let Some(format) = self.line_format(register) {
-            list.add(register, format, true);
+        for register in registers {
+            if let Some(format) = self.line_format(register) {
+                list.add(register, format, true);
+            }
         }
     }
 
@@ -123,7 +125,7 @@ impl Datapath {
             list.add(Register::TailX, self.tail_x_format(), rank == front_end);
         }
         if let Some(step) = self.divisor_step(rank) {
-            self.line_register(0, step, list);
+            self.line_registers(0, step, list);
         }
         if let Some(index) = rank.checked_sub(self.rank_of(Register::Divisor)) {
             let steps = self.divider.map_or(0, |divider| divider.digit_stages() as usize);
@@ -146,65 +148,10 @@ impl Datapath {
 
     /// 1 − x lies in [0, 1]; hand-over − x may be less, for an x that another segment answers. None where 63 bits do
     /// not hold it.
-    fn distance_format(&self, segment: usize) -> Option<QFormat> {
+    pub(super) fn distance_format(&self, segment: usize) -> Option<QFormat> {
         let one = i128::from(self.front_end.one);
         let least = if segment == 0 { 0 } else { -one };
         QFormat::for_range(least, one, self.formats.input.fraction_bits()).ok()
-    }
-
-    /// The format of product or sum of a multiply-add, 0 for the divisor's; none of another register, of a line that is
-    /// not there, and where 63 bits do not hold it.
-    ///
-    /// The product is whole: as many fraction bits as both operands, and of a signed multiplicand a sign more than
-    /// needed, as the multiplier's other operand has none. The sum has the place that is rounded, and an integer bit
-    /// more than the result: rounding may bring it into the result's format from just outside.
-    #[must_use]
-    pub fn line_format(&self, register: Register) -> Option<QFormat> {
-        let (Register::Product(line) | Register::Sum(line)) = register else { return None };
-        let (multiplicand, variable, result, drop) = match line.checked_sub(1) {
-            None => {
-                let formats = self.formats.tail.as_ref()?;
-                (formats.b, self.tail_x_format(), formats.divisor, self.divider?.divisor.dropped_bits())
-            }
-            Some(index) => {
-                let formats = self.formats.polynomial.as_ref()?;
-                let result = *formats.t().get(index)?;
-                (formats.multiplicand(line), formats.v, result, self.stages().get(index)?.dropped_bits())
-            }
-        };
-        let format = if register == Register::Product(line) {
-            let fraction = multiplicand.fraction_bits() + variable.fraction_bits();
-            let integer = multiplicand.integer_bits() + variable.integer_bits();
-            match multiplicand.is_signed() {
-                true => QFormat::signed(integer + 1, fraction),
-                false => QFormat::unsigned(integer, fraction),
-            }
-        } else {
-            QFormat::signed(result.integer_bits() + 1, result.fraction_bits() + drop)
-        };
-        format.ok()
-    }
-
-    /// Refuses a rank of registers that would be wider than a register can be.
-    pub(crate) fn check_pipelining(&self) -> Result<(), ConfigError> {
-        let refuse = |problem| Err(ConfigError::Field { field: "pipelining", problem });
-        if self.pipelining.front_end > 0 && self.distance_format(self.segment_count() - 1).is_none() {
-            return refuse("hand-over − x would need more than 63 bits: leave \"front_end\" out".to_owned());
-        }
-        let lines = (1..=self.degree()).chain(self.divider.map(|_| 0));
-        let kept = lines.flat_map(|line| {
-            let product = (self.pipelining.product > 0).then_some((Register::Product(line), "product"));
-            product.into_iter().chain(self.pipelining.sum.then_some((Register::Sum(line), "sum")))
-        });
-        for (register, field) in kept {
-            if self.line_format(register).is_none() {
-                return refuse(format!(
-                    "the register {register} would need more than 63 bits: leave \"{field}\" out, or state \
-                     narrower formats (widths, multiplier_operand_bits)"
-                ));
-            }
-        }
-        Ok(())
     }
 
     fn field(&self, list: &mut List, register: Register, computed: bool) {

@@ -27,7 +27,7 @@ pub const FRONT_END: &str = "front_end";
 pub fn register_name(head: usize, rank: usize, rank_name: &str, register: &str) -> String {
     let of_divider = match Register::named(register) {
         Some(Register::Divisor | Register::Remainder | Register::Digits) => true,
-        Some(Register::Product(0) | Register::Sum(0)) => true,
+        Some(Register::Product(0) | Register::Sum(0) | Register::Partial(0, _)) => true,
         _ => false,
     };
     match rank.checked_sub(head) {
@@ -82,7 +82,8 @@ impl Datapath {
         match register {
             Register::Distance(_) | Register::Beyond | Register::Region => self.pipelining.compare_rank(),
             Register::V | Register::TailX => self.pipelining.front_end_rank(),
-            Register::Product(stage) => begins(stage) + usize::from(operands),
+            Register::Partial(stage, _) => begins(stage) + usize::from(operands),
+            Register::Product(stage) => begins(stage) + usize::from(operands) + (product as usize).saturating_sub(1),
             Register::Sum(stage) => begins(stage) + usize::from(operands) + product as usize,
             Register::T(stage) => begins(stage) + line - 1,
             Register::Divisor | Register::Remainder | Register::Digits => head + line - 1,
@@ -97,11 +98,11 @@ impl Datapath {
     pub(super) fn read_by(&self, register: Register) -> usize {
         let degree = self.degree();
         match register {
-            Register::C(_, power) if power == degree => self.rank_of(Register::Product(1)),
+            Register::C(_, power) if power == degree => self.rank_of(Register::Partial(1, 0)),
             Register::C(_, power) => self.rank_of(Register::Sum(degree.saturating_sub(power))),
-            Register::T(stage) if stage < degree => self.rank_of(Register::Product(stage + 1)),
-            Register::V => self.rank_of(Register::Product(degree)),
-            Register::TailB => self.rank_of(Register::Product(0)),
+            Register::T(stage) if stage < degree => self.rank_of(Register::Partial(stage + 1, 0)),
+            Register::V => self.rank_of(Register::Partial(degree, 0)),
+            Register::TailB => self.rank_of(Register::Partial(0, 0)),
             Register::TailA => self.rank_of(Register::Sum(0)),
             Register::TailX => self.rank_of(Register::Divisor),
             _ => self.rank_count() - 1,
@@ -140,6 +141,7 @@ impl Datapath {
         }
         match self.polynomial_step(rank) {
             Some((stage, LineStep::Operands)) => format!("stage{stage}_operands"),
+            Some((stage, LineStep::Partial)) => format!("stage{stage}_partial"),
             Some((stage, LineStep::Product)) => format!("stage{stage}_product"),
             Some((stage, LineStep::Sum)) => format!("stage{stage}_sum"),
             Some((stage, LineStep::Result)) => format!("stage{stage}"),

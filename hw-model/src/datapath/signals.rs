@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::format::QFormat;
-use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, Register};
+use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, PARTIALS, Register};
 use crate::rom::Row;
 
 use super::front_end::Region;
@@ -103,6 +103,8 @@ pub struct Signals {
     pub beyond: i64,
     /// The products of the multiply-adds, the divisor's first, where a rank has them.
     pub product: [i64; MAX_DEGREE + 1],
+    /// The products of pieces of their operands, where a rank has them.
+    pub partial: [[i64; PARTIALS]; MAX_DEGREE + 1],
     /// Their sums before they are rounded, where a rank has them.
     pub sum: [i64; MAX_DEGREE + 1],
 }
@@ -125,6 +127,7 @@ impl Signals {
             Register::Intensity => self.intensity,
             Register::Product(line) => self.product[line],
             Register::Sum(line) => self.sum[line],
+            Register::Partial(line, part) => self.partial[line][part],
             Register::Distance(segment) => self.distance[segment],
             Register::Beyond => self.beyond,
             field => self.row.get(field),

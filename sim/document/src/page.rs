@@ -94,6 +94,7 @@ impl Page<'_> {
         let pipelining = self.datapath.pipelining();
         let step = |index| match pipelining.line_step(index) {
             LineStep::Operands => "copies of the operands",
+            LineStep::Partial => "products of pieces of the operands",
             LineStep::Product => "the product",
             LineStep::Sum => "the sum, not rounded yet",
             LineStep::Result => "the result",

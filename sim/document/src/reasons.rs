@@ -75,6 +75,7 @@ impl<'a> Reasons<'a> {
             }
             Register::X => "the input format".to_owned(),
             Register::Product(_) => "the product is kept whole: the bits of both operands".to_owned(),
+            Register::Partial(..) => "the bits of both pieces".to_owned(),
             Register::Sum(_) => "the bits of the result, those rounded off, and a bit and a sign for what \
                                  rounding brings back into its format"
                 .to_owned(),

@@ -120,7 +120,7 @@ fn pipelining(random: &mut Random) -> Pipelining {
         rom: random.once_in(2),
         front_end: random.integer(0, 1) as u32,
         operands: random.once_in(2),
-        product: random.integer(0, 1) as u32,
+        product: random.integer(0, 2) as u32,
         sum: random.once_in(2),
     }
 }

@@ -83,7 +83,7 @@ pub const FAULTS: &[Fault] = &[
     fault!("the second segment counts from the hand-over in its own unit", "small_ends", "blysk_front_end.sv",
         "S_WIDTH'(of_row) << HAND_OVER_UP" => "S_WIDTH'(of_row)", "front_end.v is"),
     fault!("the product loads while it stalls", "small_deep", "blysk_stage.sv",
-        "if (load_i[OPERAND_RANKS]) product_q <= whole;" => "product_q <= whole;", "product"),
+        "if (load_i[OPERAND_RANKS+PRODUCT_RANKS-1]) product_q <= product_d;" => "product_q <= product_d;", "product"),
     fault!("the sum loses a bit that rounding needs", "small_deep", "blysk_stage.sv",
         "localparam int KEPT = T_WIDTH + DROP + 1;" => "localparam int KEPT = T_WIDTH + DROP - 1;", "sum"),
     fault!("an addend a rank early", "small_deep", "blysk.sv",

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hw_model::datapath::{Signals, Status};
-use hw_model::registers::{MAX_DEGREE, MAX_SEGMENTS, Register};
+use hw_model::registers::{MAX_DEGREE, MAX_SEGMENTS, PARTIALS, Register};
 use hw_model::rounding::Rounding;
 
 /// Faults of the handshake: which cycle a result comes in, and whether it comes at all. They need a
@@ -82,7 +82,7 @@ pub const fn is_data(register: Register) -> bool {
     match register {
         Register::V | Register::T(_) | Register::Intensity => true,
         Register::TailX | Register::Divisor | Register::Remainder | Register::Digits => true,
-        Register::Product(_) | Register::Sum(_) | Register::Distance(_) => true,
+        Register::Partial(..) | Register::Product(_) | Register::Sum(_) | Register::Distance(_) => true,
         _ => false,
     }
 }
@@ -98,6 +98,7 @@ pub const fn place(register: Register, signals: &mut Signals) -> Option<&mut i64
         Register::Digits => Some(&mut signals.division.digits),
         Register::Intensity => Some(&mut signals.intensity),
         Register::Product(line @ 0..=MAX_DEGREE) => Some(&mut signals.product[line]),
+        Register::Partial(line @ 0..=MAX_DEGREE, part @ 0..PARTIALS) => Some(&mut signals.partial[line][part]),
         Register::Sum(line @ 0..=MAX_DEGREE) => Some(&mut signals.sum[line]),
         Register::Distance(segment @ 0..MAX_SEGMENTS) => Some(&mut signals.distance[segment]),
         _ => None,

@@ -120,7 +120,7 @@ fn is_met(fault: Fault, datapath: &Datapath, row: &Row, xs: &[i64]) -> bool {
     match fault {
         Fault::Rounding(register, _) | Fault::Register(_, register, _) => match register {
             Register::V | Register::T(_) | Register::Distance(_) => high >= cut,
-            Register::Product(1..) | Register::Sum(1..) => high >= cut,
+            Register::Partial(1.., _) | Register::Product(1..) | Register::Sum(1..) => high >= cut,
             Register::Intensity if matches!(fault, Fault::Register(..)) => true,
             _ => low < cut,
         },

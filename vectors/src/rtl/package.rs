@@ -15,7 +15,7 @@ use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
-use hw_model::pipelining::Pipelining;
+use hw_model::pipelining::{PIECE, Pipelining};
 use hw_model::registers::Register;
 use hw_model::rom::{Field, Place};
 use hw_model::rounding::Rounding;
@@ -190,6 +190,7 @@ fn pipelining(datapath: &Datapath) -> Section {
         .integer("FRONT_END_RANKS", front_end)
         .integer("OPERAND_RANKS", i64::from(operands))
         .integer("PRODUCT_RANKS", product)
+        .integer("PRODUCT_PIECE", PIECE)
         .integer("SUM_RANKS", i64::from(sum))
 }
 

@@ -145,9 +145,8 @@ fn behind_front_end(datapath: &Datapath, rank: usize, register: Register) -> Str
         }
         Register::C(_, power) => carried(&format!("polynomial.coefficient[{power}].delay"), rank),
         Register::T(last) => result(datapath, rank, last),
-        Register::Product(1..) | Register::Sum(1..) => {
-            let kind = if matches!(register, Register::Product(_)) { "product" } else { "sum" };
-            format!("polynomial.stage[{stage}].multiply_add.{kind}_register.{kind}_q")
+        Register::Partial(1.., _) | Register::Product(1..) | Register::Sum(1..) => {
+            inside(&format!("polynomial.stage[{stage}].multiply_add"), register)
         }
         _ => in_tail(datapath, rank, register),
     }
@@ -156,6 +155,15 @@ fn behind_front_end(datapath: &Datapath, rank: usize, register: Register) -> Str
 /// A copied operand of a multiply-add.
 fn operand(stage: &str, which: &str) -> String {
     carried(&format!("{stage}.operands.{which}_copy"), 0)
+}
+
+/// A register inside a multiply-add.
+fn inside(line: &str, register: Register) -> String {
+    match register {
+        Register::Partial(_, part) => format!("{line}.pieces.upper[{}].by[{}].part_q", part / 2, part % 2),
+        Register::Sum(_) => format!("{line}.sum_register.sum_q"),
+        _ => format!("{line}.product_register.product_q"),
+    }
 }
 
 /// The result of a stage: where it is computed, where it is an operand of the next, and where the last one waits.
@@ -179,8 +187,7 @@ fn in_tail(datapath: &Datapath, rank: usize, register: Register) -> String {
         Register::TailB => operand(LINE, "multiplicand"),
         Register::TailX if rank == operands => operand(LINE, "variable"),
         Register::TailX => carried("tail.divider.x_waits.x_delay", rank - 1 - operands),
-        Register::Product(_) => format!("{LINE}.product_register.product_q"),
-        Register::Sum(_) => format!("{LINE}.sum_register.sum_q"),
+        Register::Partial(..) | Register::Product(_) | Register::Sum(_) => inside(LINE, register),
         Register::Divisor if rank == line => format!("{LINE}.t_q"),
         division if rank == line => format!("tail.divider.{division}_q"),
         division => digit_stage(datapath, rank - line - 1, division),
