@@ -22,7 +22,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / "target/venv/bin"
-EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in ["parabolas", "quartics"]]
+NAMES = ["parabolas", "quartics", "compact_deep", "precise_deep"]
+EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in NAMES]
 PROPERTIES = ROOT / "hw-model/rtl/formal"
 RTL = [
     "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
@@ -77,13 +78,14 @@ def stage(number, multiplicand, variable, addend, needs, subtract, rounding=""):
         "ADDEND_WIDTH": f"{addend}_WIDTH", "ADDEND_SIGNED": f"{addend}_SIGNED",
         "T_WIDTH": f"{t}_WIDTH", "T_SIGNED": f"{t}_SIGNED" if number else 0,
         "SUBTRACT": subtract, "ROUNDING": ROUNDINGS.get(rounding, f"{t}_ROUNDING"),
+        **{name: name for name in ["OPERAND_RANKS", "PRODUCT_RANKS", "SUM_RANKS"]},
     }
     for place in ["PRODUCT_UP", "ADDEND_UP", "RESULT_UP", "DROP", "SUM_WIDTH"]:
         parameters[place] = f"{t}_{place}"
     name = f"stage {number}" if number else "divisor"
     return Property(
         name=f"{name}, {rounding}" if rounding else name, top="stage_proof",
-        files=["blysk_round_shift", "blysk_stage"], proof=["multiply_add.sv", "stage.sv"],
+        files=["blysk_round_shift", "blysk_delay", "blysk_stage"], proof=["multiply_add.sv", "trail.sv", "stage.sv"],
         needs=needs, parameters=parameters,
         bugs=[] if rounding else [ROUNDING_BUG, Bug("sum too narrow", parameter="SUM_WIDTH", less=4)],
     )
@@ -115,13 +117,13 @@ ALL = [
                   "assign out_valid_o = valid_q[RANKS-1] && out_ready_i;")],
     ),
     Property(
-        "front end", "front_end_proof", ["blysk_round_shift", "blysk_front_end"],
-        ["fields.sv", "multiply_add.sv", "front_end.sv"],
+        "front end", "front_end_proof", ["blysk_round_shift", "blysk_delay", "blysk_front_end"],
+        ["fields.sv", "multiply_add.sv", "trail.sv", "front_end.sv"],
         bugs=[
             Bug("cut not included", "blysk_front_end.sv", "CUT_COMPARE_WIDTH'(x) >= ", "CUT_COMPARE_WIDTH'(x) > ",
                 needs="HAS_POLYNOMIAL"),
-            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region_d == REGION_TAIL",
-                "tail_x_d = region_d == REGION_ZERO", needs="HAS_TAIL"),
+            Bug("divider fed elsewhere", "blysk_front_end.sv", "tail_x_d = region == REGION_TAIL",
+                "tail_x_d = region == REGION_ZERO", needs="HAS_TAIL"),
             Bug("hand-over not included", "blysk_front_end.sv", "COMPARE'(x) < ", "COMPARE'(x) <= ",
                 needs="SEVERAL_SEGMENTS"),
             # Any cut with the shift of each row: u is greater than its register then.
@@ -139,7 +141,7 @@ ALL = [
     Property(
         "pipeline, 4 bits", "blysk", RTL,
         ["rom.sv", "fields.sv", "trail.sv", "multiply_add.sv", "line.sv", "pipeline.svh"],
-        inside="blysk", needs="HAS_POLYNOMIAL", carries_word=True, bits=4, bugs=[WRONG_V],
+        inside="blysk", needs="PLAIN_LINES", carries_word=True, bits=4, bugs=[WRONG_V],
     ),
     Property(
         "digits", "digits_proof", ["blysk_tail_digits"], ["digits.sv"], needs="HAS_TAIL",
@@ -150,7 +152,7 @@ ALL = [
         ],
     ),
     Property(
-        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
+        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_delay", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
         ["trail.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL", bits=12,
         bugs=[Bug("digits not moved up", "blysk_tail_digits.sv", "(digits_d << 1) |", "digits_d |")],
     ),
@@ -172,7 +174,15 @@ def constants(package):
         found[name] = found[value] if value in found else int(value)
     degrees = {f"DEGREE_{degree}": int(found["HAS_POLYNOMIAL"] and found["DEGREE"] == degree) for degree in range(1, 5)}
     several = {"SEVERAL_SEGMENTS": found["SEGMENTS"] - 1, "SEVERAL_STAGES": found["DEGREE"] - 1}
-    return {"SHIFT_STORED": 0} | found | several | degrees
+    # Whether stages have no registers but those of their results: what others hold, no property outside a stage sees.
+    further = ranks_inside(found)
+    plain = {"PLAIN_LINES": int(found["HAS_POLYNOMIAL"] and not further)}
+    return {"SHIFT_STORED": 0} | found | several | degrees | plain
+
+
+def ranks_inside(package):
+    """The ranks of registers inside a multiply-add, before that of its result."""
+    return sum(package[f"{part}_RANKS"] for part in ["OPERAND", "PRODUCT", "SUM"])
 
 
 def coefficient(segment, power):
@@ -246,8 +256,10 @@ class Job:
         if bug and bug.parameter:
             self.parameters[bug.parameter] -= bug.less
         self.word = package["ROM_WIDTH"] + 1
-        # A proof needs no more than its induction; a bug shows once a result has come out, and stalled.
-        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3
+        # A proof needs no more than its induction, over the ranks inside a part; a bug shows once a result has come
+        # out, and stalled.
+        inside = max(ranks_inside(package), package["FRONT_END_RANKS"])
+        self.depth = package["RANKS"] + 4 if bug and prop.inside else 3 + inside
         name = f"{prop.name} {bug.name}" if bug else prop.name
         self.place = ROOT / "target/formal" / preset / re.sub(r"\W+", "_", name)
 

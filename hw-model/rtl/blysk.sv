@@ -4,6 +4,8 @@
 //   (address, x) -> ROM word -+-> front end -> stage 1 -> ... -> stage DEGREE -+-> clamp -> intensity
 //                             +-> front end -> divisor, quotient digits -------+
 //
+// In the least pipeline:
+//
 //   rank      cubic            tail
 //   0         ROM word         ROM word                    fetch
 //   1         v                x                           front end
@@ -14,7 +16,9 @@
 //   last      intensity        intensity                   clamp
 //
 // RANKS is the latency in clock cycles; one result a cycle when nothing stalls. A configuration keeps
-// the polynomial, the tail, or both; what it does not keep is not built.
+// the polynomial, the tail, or both; what it does not keep is not built. It may have more ranks, as the package says:
+// behind the ROM (ROM_RANKS), inside the front end (FRONT_END_RANKS), and in each multiply-add before the multiplier,
+// behind it and behind the sum (OPERAND_RANKS, PRODUCT_RANKS, SUM_RANKS).
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -42,6 +46,11 @@ module blysk #(
   localparam int DEGREE           = blysk_pkg::DEGREE;
   localparam int SEGMENTS         = blysk_pkg::SEGMENTS;
   localparam int RANKS            = blysk_pkg::RANKS;
+  localparam int ROM_RANKS        = blysk_pkg::ROM_RANKS;
+  localparam int FRONT_END_RANKS  = blysk_pkg::FRONT_END_RANKS;
+  localparam int OPERAND_RANKS    = blysk_pkg::OPERAND_RANKS;
+  localparam int PRODUCT_RANKS    = blysk_pkg::PRODUCT_RANKS;
+  localparam int SUM_RANKS        = blysk_pkg::SUM_RANKS;
   localparam int INPUT_WIDTH      = blysk_pkg::INPUT_WIDTH;
   localparam int X_WIDTH          = blysk_pkg::X_WIDTH;
   localparam int TAIL_A_WIDTH     = blysk_pkg::TAIL_A_WIDTH;
@@ -50,6 +59,7 @@ module blysk #(
   localparam int TAIL_B_WIDTH     = blysk_pkg::TAIL_B_WIDTH;
   localparam int TAIL_B_STORED    = blysk_pkg::TAIL_B_STORED;
   localparam int TAIL_B_PLACE     = blysk_pkg::TAIL_B_PLACE;
+  localparam int FIELDS           = blysk_pkg::FIELDS;
   localparam int FIELDS_WIDTH     = blysk_pkg::FIELDS_WIDTH;
   localparam int V_WIDTH          = blysk_pkg::V_WIDTH;
   localparam int POLYNOMIAL_WIDTH = blysk_pkg::POLYNOMIAL_WIDTH;
@@ -59,6 +69,9 @@ module blysk #(
   localparam int REGION_WIDTH     = blysk_pkg::REGION_WIDTH;
   localparam int STATUS_WIDTH     = blysk_pkg::STATUS_WIDTH;
   localparam int STATUS_NO_WORD   = blysk_pkg::STATUS_NO_WORD;
+  localparam logic [32*FIELDS-1:0]              FIELD_WIDTH  = blysk_pkg::FIELD_WIDTH;
+  localparam logic [32*FIELDS-1:0]              FIELD_PLACE  = blysk_pkg::FIELD_PLACE;
+  localparam logic [32*FIELDS-1:0]              FIELD_CHOSEN = blysk_pkg::FIELD_CHOSEN;
   localparam logic [32*(DEGREE+1)-1:0]          C_WIDTH      = blysk_pkg::C_WIDTH;
   localparam logic [32*(DEGREE+1)-1:0]          C_SIGNED     = blysk_pkg::C_SIGNED;
   localparam logic [32*SEGMENTS*(DEGREE+1)-1:0] C_PLACE      = blysk_pkg::C_PLACE;
@@ -72,6 +85,12 @@ module blysk #(
   localparam logic [32*(DEGREE+1)-1:0]          T_SUM_WIDTH  = blysk_pkg::T_SUM_WIDTH;
   localparam logic [32*(DEGREE+1)-1:0]          T_ROUNDING   = blysk_pkg::T_ROUNDING;
 
+  // ---- Ranks --------------------------------------------------------------------------------------
+  // That of the comparisons of x, that of the front end, and how many ranks a multiply-add takes.
+  localparam int COMPARE   = 1 + ROM_RANKS;
+  localparam int FRONT_END = COMPARE + FRONT_END_RANKS;
+  localparam int LINE      = OPERAND_RANKS + PRODUCT_RANKS + SUM_RANKS + 1;
+
   // ---- Handshake ----------------------------------------------------------------------------------
   logic [RANKS-1:0] load;
 
@@ -84,12 +103,12 @@ module blysk #(
   );
 
   // ---- Rank 0: fetch ------------------------------------------------------------------------------
-  logic [INPUT_WIDTH-1:0]  x_q;
+  logic [INPUT_WIDTH-1:0]  x_q, x;
   logic                    no_word;
-  logic [FIELDS_WIDTH-1:0] fields;   // of the ROM word, and those that are constants
+  logic [FIELDS_WIDTH-1:0] word;     // the fields of the ROM word, and those that are constants
 
   // The status as far as it is known.
-  logic [STATUS_WIDTH-1:0] fetch_status;
+  logic [STATUS_WIDTH-1:0] fetch_status, word_status;
   always_comb begin
     fetch_status                 = '0;
     fetch_status[STATUS_NO_WORD] = no_word;
@@ -102,10 +121,27 @@ module blysk #(
   blysk_rom #(
     .ROM_FILE(ROM_FILE)
   ) rom (
-    .clk_i, .load_i(load[0]), .address_i, .no_word_o(no_word), .fields_o(fields)
+    .clk_i, .load_i(load[ROM_RANKS:0]), .address_i, .no_word_o(no_word), .fields_o(word)
   );
 
-  // ---- Rank 1: front end --------------------------------------------------------------------------
+  // A register behind the ROM's own takes x and status along.
+  blysk_delay #(.WIDTH(INPUT_WIDTH), .RANKS(1), .STORED(ROM_RANKS)) x_behind_rom (
+    .clk_i, .load_i(load[ROM_RANKS]), .value_i(x_q), .value_o(x));
+  blysk_delay #(.WIDTH(STATUS_WIDTH), .RANKS(1), .STORED(ROM_RANKS)) status_behind_rom (
+    .clk_i, .load_i(load[ROM_RANKS]), .value_i(fetch_status), .value_o(word_status));
+
+  // ---- The front end ------------------------------------------------------------------------------
+  // The fields as its last rank reads them: behind the comparisons where these have a rank of their own.
+  logic [FIELDS_WIDTH-1:0] fields;
+  genvar f;
+  for (f = 0; f < FIELDS; f = f + 1) begin : word_field
+    localparam int WIDTH  = FIELD_WIDTH[32*f+:32];
+    localparam int PLACE  = FIELD_PLACE[32*f+:32];
+    localparam int STORED = FRONT_END_RANKS != 0 ? FIELD_CHOSEN[32*f+:32] : 0;
+    blysk_delay #(.WIDTH(WIDTH), .RANKS(1), .STORED(STORED)) held (
+      .clk_i, .load_i(load[COMPARE]), .value_i(word[PLACE+:WIDTH]), .value_o(fields[PLACE+:WIDTH]));
+  end
+
   logic [V_WIDTH-1:0]      v;
   logic [X_WIDTH-1:0]      tail_x;
   logic [REGION_WIDTH-1:0] region;
@@ -113,8 +149,8 @@ module blysk #(
   logic [SEGMENTS-1:0]     beyond;
 
   blysk_front_end front_end (
-    .clk_i, .load_i(load[1]),
-    .x_i(x_q), .status_i(fetch_status), .fields_i(fields), .beyond_o(beyond),
+    .clk_i, .load_i(load[FRONT_END:COMPARE]),
+    .x_i(x), .status_i(word_status), .word_i(word), .fields_i(fields), .beyond_o(beyond),
     .v_o(v), .tail_x_o(tail_x), .region_o(region), .status_o(status)
   );
 
@@ -123,12 +159,12 @@ module blysk #(
 
   if (HAS_POLYNOMIAL != 0) begin : polynomial
 
-    // Coefficient i of the segment that answers waits for the stage that needs it: the two highest for stage 1, each
-    // other for the stage after.
+    // Coefficient i of the segment that answers waits for what reads it: the highest for the multiplier of stage 1,
+    // each other for the adder of a stage.
     genvar i, k;
     for (i = 0; i <= DEGREE; i = i + 1) begin : coefficient
       localparam int WIDTH = C_WIDTH[32*i+:32];
-      localparam int HELD  = i == DEGREE ? 1 : DEGREE - i;
+      localparam int HELD  = i == DEGREE ? 1 : (DEGREE - i - 1) * LINE + OPERAND_RANKS + PRODUCT_RANKS + 1;
       logic [WIDTH-1:0] chosen, at_stage;
       for (k = 0; k < SEGMENTS; k = k + 1) begin : segment
         localparam int PLACE = C_PLACE[32*(k*(DEGREE+1)+i)+:32];
@@ -142,7 +178,7 @@ module blysk #(
       end
       assign chosen = segment[SEGMENTS-1].choice;
       blysk_delay #(.WIDTH(WIDTH), .RANKS(HELD), .STORED(C_CARRIED[32*i+:32])) delay (
-        .clk_i, .load_i(load[HELD:1]), .value_i(chosen), .value_o(at_stage));
+        .clk_i, .load_i(load[FRONT_END+HELD-1:FRONT_END]), .value_i(chosen), .value_o(at_stage));
     end
 
     // Segment 0 needs no bit: it answers where no other one does.
@@ -155,7 +191,9 @@ module blysk #(
       localparam int M_WIDTH = T_WIDTH[32*(j-1)+:32];
       localparam int A_WIDTH = C_WIDTH[32*(DEGREE-j)+:32];
       localparam int R_WIDTH = T_WIDTH[32*j+:32];
-      logic [V_WIDTH-1:0] v_here;
+      // Its last rank.
+      localparam int LAST    = FRONT_END + j * LINE;
+      logic [V_WIDTH-1:0] v_here, v_multiplied;
       logic [M_WIDTH-1:0] multiplicand;
       logic [R_WIDTH-1:0] t;
 
@@ -164,29 +202,37 @@ module blysk #(
         assign multiplicand = coefficient[DEGREE].at_stage;
       end else begin : later
         assign multiplicand = stage[j-1].t;
-        blysk_delay #(.WIDTH(V_WIDTH), .RANKS(1)) v_delay (
-          .clk_i, .load_i(load[j]), .value_i(stage[j-1].v_here), .value_o(v_here));
+        blysk_delay #(.WIDTH(V_WIDTH), .RANKS(LINE - OPERAND_RANKS)) v_delay (
+          .clk_i, .load_i(load[LAST-LINE:LAST-2*LINE+1+OPERAND_RANKS]),
+          .value_i(stage[j-1].v_multiplied), .value_o(v_here));
       end
 
       blysk_stage #(
         .MULTIPLICAND_WIDTH(M_WIDTH), .MULTIPLICAND_SIGNED(T_SIGNED[32*(j-1)+:32]),
+        .MULTIPLICAND_STORED(j == 1 ? C_CARRIED[32*DEGREE+:32] : 1),
         .VARIABLE_WIDTH(V_WIDTH),
         .ADDEND_WIDTH(A_WIDTH), .ADDEND_SIGNED(C_SIGNED[32*(DEGREE-j)+:32]),
         .T_WIDTH(R_WIDTH), .SUBTRACT(CENTRED),
         .PRODUCT_UP(T_PRODUCT_UP[32*j+:32]), .ADDEND_UP(T_ADDEND_UP[32*j+:32]),
         .RESULT_UP(T_RESULT_UP[32*j+:32]), .DROP(T_DROP[32*j+:32]),
-        .SUM_WIDTH(T_SUM_WIDTH[32*j+:32]), .ROUNDING(T_ROUNDING[32*j+:32])
+        .SUM_WIDTH(T_SUM_WIDTH[32*j+:32]), .ROUNDING(T_ROUNDING[32*j+:32]),
+        .OPERAND_RANKS(OPERAND_RANKS), .PRODUCT_RANKS(PRODUCT_RANKS), .SUM_RANKS(SUM_RANKS)
       ) multiply_add (
-        .clk_i, .load_i(load[j+1]),
-        .multiplicand_i(multiplicand), .variable_i(v_here), .addend_i(coefficient[DEGREE-j].at_stage), .t_o(t)
+        .clk_i, .load_i(load[LAST:LAST-LINE+1]),
+        .multiplicand_i(multiplicand), .variable_i(v_here), .addend_i(coefficient[DEGREE-j].at_stage),
+        .variable_o(v_multiplied), .t_o(t)
       );
     end
 
-    // The last result is in rank DEGREE + 1; the clamp takes it from rank RANKS - 2.
-    localparam int WAIT = RANKS - 3 - DEGREE;
+    logic v_unused;
+    assign v_unused = &{1'b0, stage[DEGREE].v_multiplied};
+
+    // The clamp takes the last result from rank RANKS - 2.
+    localparam int DONE = FRONT_END + DEGREE * LINE;
+    localparam int WAIT = RANKS - 2 - DONE;
     if (WAIT > 0) begin : wait_for_tail
       blysk_delay #(.WIDTH(POLYNOMIAL_WIDTH), .RANKS(WAIT)) t_delay (
-        .clk_i, .load_i(load[RANKS-2:DEGREE+2]), .value_i(stage[DEGREE].t), .value_o(t_waited));
+        .clk_i, .load_i(load[RANKS-2:DONE+1]), .value_i(stage[DEGREE].t), .value_o(t_waited));
     end else begin : no_wait
       assign t_waited = stage[DEGREE].t;
     end
@@ -202,22 +248,23 @@ module blysk #(
 
   if (HAS_TAIL != 0) begin : tail
     // The rank of the last quotient bits.
-    localparam int LAST = 2 + DIGIT_STAGES;
-    logic [TAIL_A_WIDTH-1:0] a, a_at_1;
-    logic [TAIL_B_WIDTH-1:0] b, b_at_1;
+    localparam int LAST   = FRONT_END + LINE + DIGIT_STAGES;
+    localparam int A_HELD = OPERAND_RANKS + PRODUCT_RANKS + 1;
+    logic [TAIL_A_WIDTH-1:0] a, a_added;
+    logic [TAIL_B_WIDTH-1:0] b, b_multiplied;
     assign a = fields[TAIL_A_PLACE+:TAIL_A_WIDTH];
     assign b = fields[TAIL_B_PLACE+:TAIL_B_WIDTH];
     logic [DIVISOR_WIDTH-1:0] remainder;
     logic [DIGITS_WIDTH-1:0]  digits;
 
-    blysk_delay #(.WIDTH(TAIL_A_WIDTH), .RANKS(1), .STORED(TAIL_A_STORED)) a_delay (
-      .clk_i, .load_i(load[1]), .value_i(a), .value_o(a_at_1));
+    blysk_delay #(.WIDTH(TAIL_A_WIDTH), .RANKS(A_HELD), .STORED(TAIL_A_STORED)) a_delay (
+      .clk_i, .load_i(load[FRONT_END+A_HELD-1:FRONT_END]), .value_i(a), .value_o(a_added));
     blysk_delay #(.WIDTH(TAIL_B_WIDTH), .RANKS(1), .STORED(TAIL_B_STORED)) b_delay (
-      .clk_i, .load_i(load[1]), .value_i(b), .value_o(b_at_1));
+      .clk_i, .load_i(load[FRONT_END]), .value_i(b), .value_o(b_multiplied));
 
     blysk_tail divider (
-      .clk_i, .load_i(load[LAST:2]),
-      .x_i(tail_x), .a_i(a_at_1), .b_i(b_at_1),
+      .clk_i, .load_i(load[LAST:FRONT_END+1]),
+      .x_i(tail_x), .a_i(a_added), .b_i(b_multiplied),
       .remainder_o(remainder), .digits_o(digits)
     );
 
@@ -241,10 +288,10 @@ module blysk #(
   logic [REGION_WIDTH-1:0] region_waited;
   logic [STATUS_WIDTH-1:0] status_waited;
 
-  blysk_delay #(.WIDTH(REGION_WIDTH), .RANKS(RANKS - 3)) region_delay (
-    .clk_i, .load_i(load[RANKS-2:2]), .value_i(region), .value_o(region_waited));
-  blysk_delay #(.WIDTH(STATUS_WIDTH), .RANKS(RANKS - 3)) status_delay (
-    .clk_i, .load_i(load[RANKS-2:2]), .value_i(status), .value_o(status_waited));
+  blysk_delay #(.WIDTH(REGION_WIDTH), .RANKS(RANKS - 2 - FRONT_END)) region_delay (
+    .clk_i, .load_i(load[RANKS-2:FRONT_END+1]), .value_i(region), .value_o(region_waited));
+  blysk_delay #(.WIDTH(STATUS_WIDTH), .RANKS(RANKS - 2 - FRONT_END)) status_delay (
+    .clk_i, .load_i(load[RANKS-2:FRONT_END+1]), .value_i(status), .value_o(status_waited));
 
   // ---- Last rank: clamp ---------------------------------------------------------------------------
   blysk_clamp clamp (

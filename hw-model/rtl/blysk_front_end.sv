@@ -19,6 +19,11 @@
 // A part that does not answer is fed a harmless x, for which the ranges of its registers are proved
 // too: the polynomial u = 0, or the greatest x in the power form; the divider x = 0.
 //
+// Where the configuration cuts the front end (FRONT_END_RANKS), a rank of registers stands behind the comparisons. It
+// holds the distances from x to where each segment begins, computed beside the comparisons, and the choice between them
+// comes behind it: word_i is the ROM word as the comparisons read it, fields_i as the choice does. Without that rank
+// both are the same, and one subtraction serves all segments.
+//
 // Widths: a clamped x has X_WIDTH bits, unsigned. s = 1 - x (or hand-over - x) needs INPUT_FRACTION + 1. u = s * 2^e is
 // less than 2^V_WIDTH in its own unit for every row's cut, so U_WIDTH = V_WIDTH + U_DROP and a carry
 // bit and a sign hold it before its rounding.
@@ -27,11 +32,12 @@
 
 module blysk_front_end (
   input  logic                               clk_i,
-  input  logic                               load_i,
+  input  logic [blysk_pkg::FRONT_END_RANKS:0] load_i,
   input  logic [blysk_pkg::INPUT_WIDTH-1:0]  x_i,
   input  logic [blysk_pkg::STATUS_WIDTH-1:0] status_i,
+  input  logic [blysk_pkg::FIELDS_WIDTH-1:0] word_i,
   input  logic [blysk_pkg::FIELDS_WIDTH-1:0] fields_i,
-  output logic [blysk_pkg::SEGMENTS-1:0]     beyond_o,      // not registered
+  output logic [blysk_pkg::SEGMENTS-1:0]     beyond_o,      // as the choice reads it
   output logic [blysk_pkg::V_WIDTH-1:0]      v_o,
   output logic [blysk_pkg::X_WIDTH-1:0]      tail_x_o,
   output logic [blysk_pkg::REGION_WIDTH-1:0] region_o,
@@ -43,6 +49,7 @@ module blysk_front_end (
   localparam int HAS_TAIL                = blysk_pkg::HAS_TAIL;
   localparam int CENTRED                 = blysk_pkg::CENTRED;
   localparam int SEGMENTS                = blysk_pkg::SEGMENTS;
+  localparam int FRONT_END_RANKS         = blysk_pkg::FRONT_END_RANKS;
   localparam int INPUT_WIDTH             = blysk_pkg::INPUT_WIDTH;
   localparam int INPUT_SIGNED            = blysk_pkg::INPUT_SIGNED;
   localparam int INPUT_FRACTION          = blysk_pkg::INPUT_FRACTION;
@@ -91,14 +98,14 @@ module blysk_front_end (
   assign x = facing_away ? '0 : above_one ? X_GREATEST : x_i[X_WIDTH-1:0];
 
   // ---- Which part answers -------------------------------------------------------------------------
-  logic [REGION_WIDTH-1:0] region_d, region_q;
+  logic [REGION_WIDTH-1:0] region_d, region, region_q;
   logic                    above_cut, no_word;
   assign no_word = status_i[STATUS_NO_WORD];
 
   if (HAS_POLYNOMIAL != 0) begin : cut
     logic [CUT_WIDTH-1:0]         of_row;
     logic [CUT_COMPARE_WIDTH-1:0] least_x;
-    assign of_row    = fields_i[CUT_PLACE+:CUT_WIDTH];
+    assign of_row    = word_i[CUT_PLACE+:CUT_WIDTH];
     assign least_x   = CUT_COMPARE_WIDTH'(of_row) << CUT_UP;
     assign above_cut = CUT_COMPARE_WIDTH'(x) >= least_x;
   end else begin : no_cut
@@ -113,18 +120,35 @@ module blysk_front_end (
     end
   end
 
+  // ---- What the choice reads: behind a rank of registers, where there is one -----------------------
+  // The power form and the divider read x; u is made of the distances.
+  localparam int X_HELD = FRONT_END_RANKS != 0 && (CENTRED == 0 || HAS_POLYNOMIAL == 0 || HAS_TAIL != 0) ? 1 : 0;
+  logic [X_WIDTH-1:0]  x_chosen;
+  logic [SEGMENTS-1:0] below;
+
+  blysk_delay #(.WIDTH(X_WIDTH), .RANKS(1), .STORED(X_HELD)) held_x (
+    .clk_i, .load_i(load_i[0]), .value_i(x), .value_o(x_chosen));
+  blysk_delay #(.WIDTH(REGION_WIDTH), .RANKS(1), .STORED(FRONT_END_RANKS)) held_region (
+    .clk_i, .load_i(load_i[0]), .value_i(region_d), .value_o(region));
+  if (SEGMENTS > 1) begin : several_segments
+    blysk_delay #(.WIDTH(SEGMENTS-1), .RANKS(1), .STORED(FRONT_END_RANKS)) held_beyond (
+      .clk_i, .load_i(load_i[0]), .value_i(below[SEGMENTS-1:1]), .value_o(beyond_o[SEGMENTS-1:1]));
+  end
+
   always_ff @(posedge clk_i) begin
-    if (load_i) region_q <= region_d;
+    if (load_i[FRONT_END_RANKS]) region_q <= region;
   end
   assign region_o = region_q;
 
   // ---- Which segment ------------------------------------------------------------------------------
   // Bit k: x lies below the hand-over to segment k. The highest bit set is the segment that answers.
+  assign below[0]    = 1'b0;
   assign beyond_o[0] = 1'b0;
 
-  // Where v counts from (start), and the places it is moved up (shift): of segment k, or of the one before it that
-  // answers.
-  localparam int S_WIDTH = INPUT_FRACTION + 1;
+  // How far x lies below where v counts from (s), and the places it is moved up (shift): of segment k, or of the one
+  // before it that answers. Without a rank of registers before the choice it is the start that is chosen.
+  localparam int S_WIDTH  = INPUT_FRACTION + 1;
+  localparam int MEASURED = FRONT_END_RANKS != 0 && CENTRED != 0 && HAS_POLYNOMIAL != 0 ? 1 : 0;
 
   genvar k;
   generate
@@ -132,7 +156,7 @@ module blysk_front_end (
       localparam int SHIFT_WIDTH = SHIFT_WIDTHS[32*k+:32];
       localparam int SHIFT_PLACE = SHIFT_PLACES[32*k+:32];
       logic [SHIFT_COMMON_WIDTH-1:0] own_shift, shift;
-      logic [S_WIDTH-1:0]            start;
+      logic [S_WIDTH-1:0]            start, own_start;
       if (CENTRED != 0 && HAS_POLYNOMIAL != 0) begin : shifted
         assign own_shift = SHIFT_COMMON_WIDTH'(fields_i[SHIFT_PLACE+:SHIFT_WIDTH]);
       end else begin : not_shifted
@@ -140,19 +164,38 @@ module blysk_front_end (
       end
 
       if (k == 0) begin : first
-        assign start = S_WIDTH'(1) << INPUT_FRACTION;
-        assign shift = own_shift;
+        assign own_start = S_WIDTH'(1) << INPUT_FRACTION;
+        assign start     = own_start;
+        assign shift     = own_shift;
       end else begin : further
         localparam int WIDTH   = HAND_OVER_WIDTHS[32*k+:32];
         localparam int PLACE   = HAND_OVER_PLACES[32*k+:32];
         localparam int COMPARE = HAND_OVER_COMPARE_WIDTH;
         logic [WIDTH-1:0]   of_row;
         logic [COMPARE-1:0] hand_over;
-        assign of_row      = fields_i[PLACE+:WIDTH];
+        assign of_row      = word_i[PLACE+:WIDTH];
         assign hand_over   = COMPARE'(of_row) << HAND_OVER_UP;
-        assign beyond_o[k] = region_d == REGION_POLYNOMIAL && COMPARE'(x) < hand_over;
-        assign start       = beyond_o[k] ? S_WIDTH'(of_row) << HAND_OVER_UP : segment[k-1].start;
+        assign below[k]    = region_d == REGION_POLYNOMIAL && COMPARE'(x) < hand_over;
+        assign own_start   = S_WIDTH'(of_row) << HAND_OVER_UP;
+        assign start       = beyond_o[k] ? own_start : segment[k-1].start;
         assign shift       = beyond_o[k] ? own_shift : segment[k-1].shift;
+      end
+
+      if (MEASURED != 0) begin : distance
+        // Signed where x may lie above the start of the segment.
+        localparam int WIDTH = S_WIDTH + (k == 0 ? 0 : 1);
+        logic [WIDTH-1:0]   computed, at_choice;
+        logic [S_WIDTH-1:0] choice;
+        assign computed = WIDTH'(own_start) - WIDTH'(x);
+        blysk_delay #(.WIDTH(WIDTH), .RANKS(1)) held (
+          .clk_i, .load_i(load_i[0]), .value_i(computed), .value_o(at_choice));
+        if (k == 0) begin : nearest
+          assign choice = at_choice;
+        end else begin : chosen
+          assign choice = beyond_o[k] ? S_WIDTH'(at_choice) : segment[k-1].distance.choice;
+          logic unused;
+          assign unused = &{1'b0, at_choice};
+        end
       end
     end
   endgenerate
@@ -163,12 +206,17 @@ module blysk_front_end (
 
     if (CENTRED != 0) begin : centred
       localparam int U_WIDTH = V_WIDTH + U_DROP + 2;
-      logic        [S_WIDTH-1:0]            start, s;
+      logic        [S_WIDTH-1:0]            start, distance, s;
       logic        [SHIFT_COMMON_WIDTH-1:0] shift;
       logic signed [U_WIDTH-1:0]            u;
       assign start = segment[SEGMENTS-1].start;
       assign shift = segment[SEGMENTS-1].shift;
-      assign s = region_d == REGION_POLYNOMIAL ? start - S_WIDTH'(x) : '0;
+      if (MEASURED != 0) begin : measured
+        assign distance = segment[SEGMENTS-1].distance.choice;
+      end else begin : not_measured
+        assign distance = start - S_WIDTH'(x_chosen);
+      end
+      assign s = region == REGION_POLYNOMIAL ? distance : '0;
       assign u = (U_WIDTH'(s) << U_UP) << shift;
       blysk_round_shift #(
         .IN_WIDTH(U_WIDTH), .DROP(U_DROP), .OUT_WIDTH(V_WIDTH), .MODE(U_ROUNDING)
@@ -176,11 +224,11 @@ module blysk_front_end (
         .value_i(u), .rounded_o(v_d)
       );
     end else begin : power
-      assign v_d = region_d == REGION_POLYNOMIAL ? x : X_GREATEST;
+      assign v_d = region == REGION_POLYNOMIAL ? x_chosen : X_GREATEST;
     end
 
     always_ff @(posedge clk_i) begin
-      if (load_i) v_q <= v_d;
+      if (load_i[FRONT_END_RANKS]) v_q <= v_d;
     end
     assign v_o = v_q;
   end else begin : no_variable
@@ -190,9 +238,9 @@ module blysk_front_end (
   // ---- The divider's x ----------------------------------------------------------------------------
   if (HAS_TAIL != 0) begin : tail
     logic [X_WIDTH-1:0] tail_x_d, tail_x_q;
-    assign tail_x_d = region_d == REGION_TAIL ? x : '0;
+    assign tail_x_d = region == REGION_TAIL ? x_chosen : '0;
     always_ff @(posedge clk_i) begin
-      if (load_i) tail_x_q <= tail_x_d;
+      if (load_i[FRONT_END_RANKS]) tail_x_q <= tail_x_d;
     end
     assign tail_x_o = tail_x_q;
   end else begin : no_tail
@@ -200,7 +248,7 @@ module blysk_front_end (
   end
 
   // ---- Status -------------------------------------------------------------------------------------
-  logic [STATUS_WIDTH-1:0] status_d, status_q;
+  logic [STATUS_WIDTH-1:0] status_d, status, status_q;
 
   if (STATUS_WIDTH > STATUS_CLAMPED + 1) begin : domain
     // The flag behind the last of the others: the cut is the least x that is presented.
@@ -218,14 +266,16 @@ module blysk_front_end (
     end
   end
 
+  blysk_delay #(.WIDTH(STATUS_WIDTH), .RANKS(1), .STORED(FRONT_END_RANKS)) held_status (
+    .clk_i, .load_i(load_i[0]), .value_i(status_d), .value_o(status));
   always_ff @(posedge clk_i) begin
-    if (load_i) status_q <= status_d;
+    if (load_i[FRONT_END_RANKS]) status_q <= status;
   end
   assign status_o = status_q;
 
   // The fields that other ranks read, and what a form does not have.
   logic unused;
-  assign unused = &{1'b0, fields_i, segment[SEGMENTS-1].start, segment[SEGMENTS-1].shift};
+  assign unused = &{1'b0, word_i, fields_i, x_chosen, segment[SEGMENTS-1].start, segment[SEGMENTS-1].shift};
 
 endmodule
 

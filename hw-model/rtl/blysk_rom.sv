@@ -1,6 +1,7 @@
 // The coefficient ROM: one word for each exponent, and the fields of a word. Twin of src/rom.rs.
 //
-// The word is read into a register, as a block RAM does it, when rank 0 (fetch) loads. Fields that are
+// The word is read into a register, as a block RAM does it, when rank 0 (fetch) loads, and where the configuration has
+// one (ROM_RANKS), into another register behind that. Fields that are
 // the same in every row take no place in the word; they are constants here. An address without a word
 // reads the first one, so that nothing stands between the memory and its register; no_word_o says
 // that the address had none.
@@ -11,9 +12,9 @@ module blysk_rom #(
   parameter ROM_FILE = "rom.mem"
 ) (
   input  logic                                clk_i,
-  input  logic                                load_i,
+  input  logic [blysk_pkg::ROM_RANKS:0]       load_i,       // of the memory, and of the register behind it
   input  logic [blysk_pkg::ADDRESS_WIDTH-1:0] address_i,
-  output logic                                no_word_o,
+  output logic                                no_word_o,    // of the memory's register
   // Every field, stored or constant, at its place in the package.
   output logic [blysk_pkg::FIELDS_WIDTH-1:0]  fields_o
 );
@@ -23,6 +24,7 @@ module blysk_rom #(
   localparam int ROM_DEPTH       = blysk_pkg::ROM_DEPTH;
   localparam int ROM_INDEX_WIDTH = blysk_pkg::ROM_INDEX_WIDTH;
   localparam int ROM_WIDTH       = blysk_pkg::ROM_WIDTH;
+  localparam int ROM_RANKS       = blysk_pkg::ROM_RANKS;
   localparam int FIELDS          = blysk_pkg::FIELDS;
   localparam int FIELDS_WIDTH    = blysk_pkg::FIELDS_WIDTH;
   localparam logic [32*FIELDS-1:0]    FIELD_WIDTH    = blysk_pkg::FIELD_WIDTH;
@@ -37,7 +39,7 @@ module blysk_rom #(
 
   logic                       has_word;
   logic [ROM_INDEX_WIDTH-1:0] index;
-  logic [ROM_WIDTH-1:0]       word_q;
+  logic [ROM_WIDTH-1:0]       word_q, word;
   logic                       no_word_q;
 
   // The address port has at least one value more than there are words.
@@ -45,12 +47,15 @@ module blysk_rom #(
   assign index    = has_word ? address_i[ROM_INDEX_WIDTH-1:0] : '0;
 
   always_ff @(posedge clk_i) begin
-    if (load_i) begin
+    if (load_i[0]) begin
       word_q    <= words[index];
       no_word_q <= !has_word;
     end
   end
   assign no_word_o = no_word_q;
+
+  blysk_delay #(.WIDTH(ROM_WIDTH), .RANKS(1), .STORED(ROM_RANKS)) word_behind (
+    .clk_i, .load_i(load_i[ROM_RANKS]), .value_i(word_q), .value_o(word));
 
   // ---- The fields of the word, or their constants -------------------------------------------------
   genvar i;
@@ -61,11 +66,18 @@ module blysk_rom #(
       localparam int LSB   = FIELD_LSB[32*i+:32];
       logic [WIDTH-1:0] value;
       if (FIELD_STORED[32*i]) begin : stored
-        assign value = word_q[LSB+:WIDTH];
+        assign value = word[LSB+:WIDTH];
       end else begin : constant
         assign value = FIELD_CONSTANT[PLACE+:WIDTH];
       end
       assign fields_o[PLACE+:WIDTH] = value;
+      if (ROM_RANKS != 0 && FIELD_STORED[32*i]) begin : behind
+        // For testbenches: the field before the register behind the memory.
+        logic [WIDTH-1:0] fetched;
+        assign fetched = word_q[LSB+:WIDTH];
+        logic unused;
+        assign unused = &{1'b0, fetched};
+      end
     end
   endgenerate
 

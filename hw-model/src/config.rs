@@ -13,6 +13,7 @@ use crate::exponents::Exponents;
 use crate::fit::{Hardware, Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
 use crate::names;
+use crate::pipelining::Pipelining;
 use crate::registers::{CUBIC, MAX_SEGMENTS, Register};
 use crate::rounding::Rounding;
 use crate::steps::{self, CoefficientSteps};
@@ -116,6 +117,9 @@ pub struct Config {
     /// The x that are presented, one entry for each exponent; every x where it is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub domain: Vec<Presented>,
+    /// Ranks of registers beyond the least.
+    #[serde(default, skip_serializing_if = "Pipelining::is_least")]
+    pub pipelining: Pipelining,
 }
 
 fn default_q() -> f64 {
@@ -222,6 +226,7 @@ impl Config {
             .or_else(|problem| wrong("coefficient_steps", problem))?;
         domain::check(&self.domain, &self.exponents, self.tail != Tail::Zero)
             .or_else(|problem| wrong("domain", problem))?;
+        self.pipelining.check().or_else(|problem| wrong("pipelining", problem))?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }

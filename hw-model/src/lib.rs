@@ -35,6 +35,7 @@ pub mod fit;
 pub mod format;
 pub mod highlight;
 pub mod names;
+pub mod pipelining;
 pub mod presets;
 pub mod quantise;
 pub mod registers;

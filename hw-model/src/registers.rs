@@ -18,6 +18,11 @@
 //! | `X`, `V`, `T(j)`          | the input, the variable, the result of stage j                  |            |
 //! | `TailX`, `Divisor`, `Remainder`, `Digits` | the division                                    |            |
 //! | `Region`, `Status`, `Intensity` | which part answers, the flags, the answer                 |            |
+//! | `Product(j)`, `Sum(j)`    | product and sum of stage j, of the divisor for j = 0            |            |
+//! | `Partial(j, i)`           | the product of two pieces of the operands of stage j            |            |
+//! | `Distance(k)`, `Beyond`   | how far x lies below the start of segment k; whether it does    |            |
+//!
+//! The last five stand only in a pipeline that has ranks for them ([`crate::pipelining`]).
 //!
 //! Segments count from x = 1 downwards: segment 0 begins at 1. Names of segment 0 have no suffix (`c3`, `shift`), those
 //! of segment 1 `_outer` (`c3_outer`, `shift_outer`; its `HandOver` is `hand_over`), those of segment k ≥ 2 `_outer`
@@ -68,6 +73,17 @@ pub enum Register {
     Status,
     /// The answer.
     Intensity,
+    /// The product of stage j, whole; of the divisor for j = 0.
+    Product(usize),
+    /// The sum of stage j before it is rounded; of the divisor for j = 0.
+    Sum(usize),
+    /// 1 − x, or for segment k ≥ 1 hand-over − x.
+    Distance(usize),
+    /// For each further segment whether x lies below its hand-over: bit k − 1 for segment k.
+    Beyond,
+    /// A product of pieces of the operands of stage j, of the divisor for j = 0: of the lower piece of the multiplicand
+    /// for i < 2, and of the lower one of the variable for even i.
+    Partial(usize, usize),
 }
 
 /// Registers of segment 0 in the ROM: c4 to c0, cut, shift, A and B.
@@ -102,12 +118,27 @@ const SHIFT: [&str; MAX_SEGMENTS] = of_segments!("shift", "shift_outer");
 /// Segment 0 begins at x = 1, which no register holds.
 const HAND_OVER: [&str; MAX_SEGMENTS] = of_segments!("one", "hand_over");
 const T: [&str; MAX_DEGREE + 1] = ["t0", "t1", "t2", "t3", "t4"];
+const PRODUCT: [&str; MAX_DEGREE + 1] = ["divisor_product", "product1", "product2", "product3", "product4"];
+const SUM: [&str; MAX_DEGREE + 1] = ["divisor_sum", "sum1", "sum2", "sum3", "sum4"];
+/// Products of pieces: two of either operand.
+pub const PARTIALS: usize = 4;
+/// By line, the divisor's first.
+const PARTIAL: [[&str; PARTIALS]; MAX_DEGREE + 1] = [
+    ["divisor_partial0", "divisor_partial1", "divisor_partial2", "divisor_partial3"],
+    ["partial1_0", "partial1_1", "partial1_2", "partial1_3"],
+    ["partial2_0", "partial2_1", "partial2_2", "partial2_3"],
+    ["partial3_0", "partial3_1", "partial3_2", "partial3_3"],
+    ["partial4_0", "partial4_1", "partial4_2", "partial4_3"],
+];
+const DISTANCE: [&str; MAX_SEGMENTS] = of_segments!("distance", "distance_outer");
+/// Registers of the least pipeline.
+const LEAST: usize = Register::ROM_COUNT + MAX_DEGREE + 9;
 
 impl Register {
     /// How many registers a ROM word can have.
     pub const ROM_COUNT: usize = FIRST + (MAX_SEGMENTS - 1) * FURTHER;
     /// How many registers there are.
-    pub const COUNT: usize = Self::ROM_COUNT + MAX_DEGREE + 9;
+    pub const COUNT: usize = LEAST + (2 + PARTIALS) * (MAX_DEGREE + 1) + MAX_SEGMENTS + 1;
 
     /// Every register of the ROM, in the order in which they are packed into a word from bit 0 up.
     pub fn in_rom() -> impl Iterator<Item = Self> {
@@ -122,7 +153,11 @@ impl Register {
         let stages = (1..=MAX_DEGREE).map(Self::T);
         let division = [Self::TailX, Self::Divisor, Self::Remainder, Self::Digits];
         let last = [Self::Region, Self::Status, Self::Intensity];
-        Self::in_rom().chain([Self::X, Self::V]).chain(stages).chain(division).chain(last)
+        let least = Self::in_rom().chain([Self::X, Self::V]).chain(stages).chain(division).chain(last);
+        let lines = || 0..=MAX_DEGREE;
+        let further = lines().map(Self::Product).chain(lines().map(Self::Sum));
+        let partials = lines().flat_map(|line| (0..PARTIALS).map(move |part| Self::Partial(line, part)));
+        least.chain(further).chain((0..MAX_SEGMENTS).map(Self::Distance)).chain([Self::Beyond]).chain(partials)
     }
 
     /// Its place in [`Register::all`].
@@ -148,6 +183,11 @@ impl Register {
             Self::Region => Self::ROM_COUNT + MAX_DEGREE + 6,
             Self::Status => Self::ROM_COUNT + MAX_DEGREE + 7,
             Self::Intensity => Self::ROM_COUNT + MAX_DEGREE + 8,
+            Self::Product(line) => LEAST + line,
+            Self::Sum(line) => LEAST + MAX_DEGREE + 1 + line,
+            Self::Distance(segment) => LEAST + 2 * (MAX_DEGREE + 1) + segment,
+            Self::Beyond => LEAST + 2 * (MAX_DEGREE + 1) + MAX_SEGMENTS,
+            Self::Partial(line, part) => LEAST + 2 * (MAX_DEGREE + 1) + MAX_SEGMENTS + 1 + PARTIALS * line + part,
         }
     }
 
@@ -178,6 +218,11 @@ impl Register {
             Self::Region => "region",
             Self::Status => "status",
             Self::Intensity => "intensity",
+            Self::Product(line) => PRODUCT[line],
+            Self::Sum(line) => SUM[line],
+            Self::Distance(segment) => DISTANCE[segment],
+            Self::Beyond => "beyond",
+            Self::Partial(line, part) => PARTIAL[line][part],
         }
     }
 

@@ -1,8 +1,7 @@
 //! The registers that a configuration can state: their formats, what they take, and the hardware they make.
 
-use crate::datapath::HEAD_RANKS;
-use crate::datapath::Signals;
 use crate::datapath::reach::{Extreme, Reach};
+use crate::datapath::{Datapath, Signals};
 use crate::design::Design;
 use crate::format::QFormat;
 use crate::registers::{MAX_SEGMENTS, Register, Table};
@@ -186,19 +185,19 @@ pub fn tight(formats: &Each<QFormat>, taken: &Each<Reach>) -> Each<QFormat> {
 /// True where a register holds this on the way of one x. A coefficient or an end of a segment that never answers is
 /// held by the fetched word alone.
 #[must_use]
-pub fn holds(register: Register, passage: &[Signals], bits: i64) -> bool {
+pub fn holds(datapath: &Datapath, register: Register, passage: &[Signals], bits: i64) -> bool {
     let word = passage.first();
     let fetched = |of_segment: fn(usize, usize) -> Register, power: usize| {
         let names = (0..MAX_SEGMENTS).map(|segment| of_segment(segment, power));
         word.is_some_and(|fetch| names.into_iter().any(|name| fetch.row.get(name) == bits))
     };
     let shown = |rank: usize| passage.get(rank).map(|held| held.get(register)) == Some(bits);
+    let front_end = datapath.rank_of(Register::V);
     match register {
-        Register::C(_, power) => shown(1) || fetched(Register::C, power),
+        Register::C(_, power) => shown(front_end) || fetched(Register::C, power),
         Register::HandOver(_) => fetched(|segment, _| Register::HandOver(segment.max(1)), 0),
-        Register::T(stage) => shown(HEAD_RANKS + stage - 1),
-        Register::Divisor => shown(HEAD_RANKS),
-        _ => shown(1),
+        Register::T(_) | Register::Divisor => shown(datapath.rank_of(register)),
+        _ => shown(front_end),
     }
 }
 

@@ -12,16 +12,16 @@
   logic [LAST:0] has_result;
   filled #(.RANKS(LAST + 1)) ranks_filled (.clk_i, .load_i(load[LAST:0]), .filled_o(has_result));
 
-  logic [LAST*REGION-1:0] regions;
-  logic [LAST*STATUS-1:0] statuses;
-  trail #(.WIDTH(REGION), .RANKS(LAST - 1)) region_trail (
-    .clk_i, .load_i(load[LAST:2]), .value_i(region), .trail_o(regions));
-  trail #(.WIDTH(STATUS), .RANKS(LAST - 1)) status_trail (
-    .clk_i, .load_i(load[LAST:2]), .value_i(status), .trail_o(statuses));
+  logic [(LAST-FRONT_END+1)*REGION-1:0] regions;
+  logic [(LAST-FRONT_END+1)*STATUS-1:0] statuses;
+  trail #(.WIDTH(REGION), .RANKS(LAST - FRONT_END)) region_trail (
+    .clk_i, .load_i(load[LAST:FRONT_END+1]), .value_i(region), .trail_o(regions));
+  trail #(.WIDTH(STATUS), .RANKS(LAST - FRONT_END)) status_trail (
+    .clk_i, .load_i(load[LAST:FRONT_END+1]), .value_i(status), .trail_o(statuses));
   always_comb begin
     if (has_result[LAST]) begin
-      own_region: assert (region_waited == regions[(LAST-1)*REGION+:REGION]);
-      own_status: assert (status_waited == statuses[(LAST-1)*STATUS+:STATUS]);
+      own_region: assert (region_waited == regions[(LAST-FRONT_END)*REGION+:REGION]);
+      own_status: assert (status_waited == statuses[(LAST-FRONT_END)*STATUS+:STATUS]);
     end
   end
 
@@ -29,47 +29,49 @@
     localparam int DEGREE = blysk_pkg::DEGREE;
     localparam int V      = blysk_pkg::V_WIDTH;
 
-    // From the rank of each on, to the last.
+    // From the rank of each on, to the last: coefficients from the choice before the front end's rank.
     for (genvar i = 0; i <= DEGREE; i++) begin : c
       localparam int WIDTH = blysk_pkg::C_WIDTH[32*i+:32];
-      logic [(LAST+1)*WIDTH-1:0] all;
-      trail #(.WIDTH(WIDTH), .RANKS(LAST), .STORED(blysk_pkg::C_CARRIED[32*i+:32])) along (
-        .clk_i, .load_i(load[LAST:1]), .value_i(polynomial.coefficient[i].chosen), .trail_o(all));
+      logic [(LAST-FRONT_END+2)*WIDTH-1:0] all;
+      trail #(.WIDTH(WIDTH), .RANKS(LAST - FRONT_END + 1), .STORED(blysk_pkg::C_CARRIED[32*i+:32])) along (
+        .clk_i, .load_i(load[LAST:FRONT_END]), .value_i(polynomial.coefficient[i].chosen), .trail_o(all));
     end
-    logic [LAST*V-1:0] vs;
-    trail #(.WIDTH(V), .RANKS(LAST - 1)) v_trail (
-      .clk_i, .load_i(load[LAST:2]), .value_i(v), .trail_o(vs));
-    // t(j) is in rank j + 1. The last is looked at where the design has it.
+    logic [(LAST-FRONT_END+1)*V-1:0] vs;
+    trail #(.WIDTH(V), .RANKS(LAST - FRONT_END)) v_trail (
+      .clk_i, .load_i(load[LAST:FRONT_END+1]), .value_i(v), .trail_o(vs));
+    // t(j) is in rank FRONT_END + j * LINE. The last is looked at where the design has it.
     for (genvar j = 1; j <= DEGREE; j++) begin : t
       localparam int WIDTH = blysk_pkg::T_WIDTH[32*j+:32];
-      logic [(LAST-j)*WIDTH-1:0] all;
-      if (j + 1 < LAST) begin : on
-        trail #(.WIDTH(WIDTH), .RANKS(LAST - j - 1)) along (
-          .clk_i, .load_i(load[LAST:j+2]), .value_i(polynomial.stage[j].t), .trail_o(all));
+      localparam int DONE  = FRONT_END + j * LINE;
+      logic [(LAST-DONE+1)*WIDTH-1:0] all;
+      if (DONE < LAST) begin : on
+        trail #(.WIDTH(WIDTH), .RANKS(LAST - DONE)) along (
+          .clk_i, .load_i(load[LAST:DONE+1]), .value_i(polynomial.stage[j].t), .trail_o(all));
       end else begin : last
         assign all = polynomial.stage[j].t;
       end
     end
 
-    for (genvar rank = 2; rank <= LAST; rank++) begin : at
+    for (genvar rank = FRONT_END + 1; rank <= LAST; rank++) begin : at
       logic [V-1:0] along_v;
-      assign along_v = vs[(rank-1)*V+:V];
+      assign along_v = vs[(rank-FRONT_END)*V+:V];
 
       for (genvar j = 1; j <= DEGREE; j++) begin : line_of
         localparam int M = blysk_pkg::T_WIDTH[32*(j-1)+:32];
         localparam int A = blysk_pkg::C_WIDTH[32*(DEGREE-j)+:32];
         localparam int T = blysk_pkg::T_WIDTH[32*j+:32];
+        localparam int DONE = FRONT_END + j * LINE;
         // What is beside it in this rank, and of the line itself, nested.
         logic [M-1:0] multiplicand, inner;
         logic [A-1:0] addend;
         logic [T-1:0] along_t, result, nested;
-        assign addend = c[DEGREE-j].all[rank*A+:A];
+        assign addend = c[DEGREE-j].all[(rank-FRONT_END+1)*A+:A];
 
         if (j == 1) begin : first
-          assign multiplicand = c[DEGREE].all[rank*M+:M];
+          assign multiplicand = c[DEGREE].all[(rank-FRONT_END+1)*M+:M];
           assign inner        = multiplicand;
-        end else if (rank >= j) begin : later
-          assign multiplicand = t[j-1].all[(rank-j)*M+:M];
+        end else if (rank >= DONE - LINE) begin : later
+          assign multiplicand = t[j-1].all[(rank-DONE+LINE)*M+:M];
           assign inner        = line_of[j-1].nested;
         end else begin : none
           assign multiplicand = '0;
@@ -99,11 +101,11 @@
           .multiplicand_i(inner), .variable_i(along_v), .addend_i(addend), .t_o(nested)
         );
 
-        if (rank > j) begin : computed
+        if (rank >= DONE) begin : computed
           if (j == DEGREE && rank == LAST) begin : waited
             assign along_t = t_waited;
           end else begin : on
-            assign along_t = t[j].all[(rank-j-1)*T+:T];
+            assign along_t = t[j].all[(rank-DONE)*T+:T];
           end
           always_comb if (has_result[rank]) assert (along_t == result);
           if (j == DEGREE && rank == LAST) begin : all_of_them

@@ -4,7 +4,8 @@
 //             rounded exact value: so no product, sum or carry of the rounding overflows
 //   in_format where that value lies in the format of the register, the register holds it
 //
-// load_i is free: the register may wait any time.
+// load_i is free where the stage has one rank: the register may wait any time. With more ranks, all of them load in
+// every cycle here; that they wait for each other is proved of the pipeline (pipeline.svh).
 `default_nettype none
 
 module stage_proof #(
@@ -21,10 +22,13 @@ module stage_proof #(
   parameter int RESULT_UP           = 0,
   parameter int DROP                = 0,
   parameter int SUM_WIDTH           = 1,
-  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP
+  parameter int ROUNDING            = blysk_pkg::ROUND_NEAREST_UP,
+  parameter int OPERAND_RANKS       = 0,
+  parameter int PRODUCT_RANKS       = 0,
+  parameter int SUM_RANKS           = 0
 ) (
   input logic                          clk_i,
-  input logic                          load_i,
+  input logic [OPERAND_RANKS+PRODUCT_RANKS+SUM_RANKS:0] load_i,
   input logic [MULTIPLICAND_WIDTH-1:0] multiplicand_i,
   input logic [VARIABLE_WIDTH-1:0]     variable_i,
   input logic [ADDEND_WIDTH-1:0]       addend_i
@@ -44,19 +48,39 @@ module stage_proof #(
     .MULTIPLICAND_WIDTH(MULTIPLICAND_WIDTH), .MULTIPLICAND_SIGNED(MULTIPLICAND_SIGNED),
     .VARIABLE_WIDTH(VARIABLE_WIDTH), .ADDEND_WIDTH(ADDEND_WIDTH), .ADDEND_SIGNED(ADDEND_SIGNED),
     .T_WIDTH(T_WIDTH), .SUBTRACT(SUBTRACT), .PRODUCT_UP(PRODUCT_UP), .ADDEND_UP(ADDEND_UP),
-    .RESULT_UP(RESULT_UP), .DROP(DROP), .SUM_WIDTH(SUM_WIDTH), .ROUNDING(ROUNDING)
+    .RESULT_UP(RESULT_UP), .DROP(DROP), .SUM_WIDTH(SUM_WIDTH), .ROUNDING(ROUNDING),
+    .OPERAND_RANKS(OPERAND_RANKS), .PRODUCT_RANKS(PRODUCT_RANKS), .SUM_RANKS(SUM_RANKS)
   ) stage (
-    .clk_i, .load_i, .multiplicand_i, .variable_i, .addend_i, .t_o(t)
+    .clk_i, .load_i, .multiplicand_i, .variable_i, .addend_i, .variable_o(), .t_o(t)
   );
 
   blysk_stage #(
     .MULTIPLICAND_WIDTH(MULTIPLICAND_WIDTH), .MULTIPLICAND_SIGNED(MULTIPLICAND_SIGNED),
     .VARIABLE_WIDTH(VARIABLE_WIDTH), .ADDEND_WIDTH(ADDEND_WIDTH), .ADDEND_SIGNED(ADDEND_SIGNED),
     .T_WIDTH(SUM_WIDTH), .SUBTRACT(SUBTRACT), .PRODUCT_UP(PRODUCT_UP), .ADDEND_UP(ADDEND_UP),
-    .RESULT_UP(RESULT_UP), .DROP(DROP), .SUM_WIDTH(SUM_WIDTH), .ROUNDING(ROUNDING)
+    .RESULT_UP(RESULT_UP), .DROP(DROP), .SUM_WIDTH(SUM_WIDTH), .ROUNDING(ROUNDING),
+    .OPERAND_RANKS(OPERAND_RANKS), .PRODUCT_RANKS(PRODUCT_RANKS), .SUM_RANKS(SUM_RANKS)
   ) wide_stage (
-    .clk_i, .load_i, .multiplicand_i, .variable_i, .addend_i, .t_o(t_wide)
+    .clk_i, .load_i, .multiplicand_i, .variable_i, .addend_i, .variable_o(), .t_o(t_wide)
   );
+
+  // The operands of an addend come before it, and its sum may wait behind it.
+  localparam int BEFORE = OPERAND_RANKS + PRODUCT_RANKS;
+  localparam int LAST   = BEFORE + SUM_RANKS;
+  logic [MULTIPLICAND_WIDTH-1:0] multiplicand;
+  logic [VARIABLE_WIDTH-1:0]     variable;
+  if (LAST > 0) begin : several_ranks
+    always_comb assume (load_i == '1);
+  end
+  if (BEFORE > 0) begin : operands_before
+    blysk_delay #(.WIDTH(MULTIPLICAND_WIDTH), .RANKS(BEFORE)) multiplicand_delay (
+      .clk_i, .load_i(load_i[BEFORE-1:0]), .value_i(multiplicand_i), .value_o(multiplicand));
+    blysk_delay #(.WIDTH(VARIABLE_WIDTH), .RANKS(BEFORE)) variable_delay (
+      .clk_i, .load_i(load_i[BEFORE-1:0]), .value_i(variable_i), .value_o(variable));
+  end else begin : operands_beside
+    assign multiplicand = multiplicand_i;
+    assign variable     = variable_i;
+  end
 
   logic signed [WIDE-1:0] exact, rounded;
   multiply_add #(
@@ -65,17 +89,19 @@ module stage_proof #(
     .SUBTRACT(SUBTRACT), .PRODUCT_UP(PRODUCT_UP), .ADDEND_UP(ADDEND_UP), .RESULT_UP(RESULT_UP),
     .DROP(DROP), .ROUNDING(ROUNDING), .WIDE(WIDE)
   ) line (
-    .multiplicand_i, .variable_i, .addend_i, .exact_o(exact), .rounded_o(rounded)
+    .multiplicand_i(multiplicand), .variable_i(variable), .addend_i, .exact_o(exact), .rounded_o(rounded)
   );
 
-  logic                   loaded;
-  logic signed [WIDE-1:0] expected;
-  initial loaded = 1'b0;
+  logic signed [WIDE-1:0] rounded_late, expected;
+  blysk_delay #(.WIDTH(WIDE), .RANKS(1), .STORED(SUM_RANKS)) rounded_delay (
+    .clk_i, .load_i(load_i[BEFORE]), .value_i(rounded), .value_o(rounded_late));
+
+  logic [LAST:0] ranks_filled;
+  logic          loaded;
+  filled #(.RANKS(LAST + 1)) stage_filled (.clk_i, .load_i, .filled_o(ranks_filled));
+  assign loaded = ranks_filled[LAST];
   always_ff @(posedge clk_i) begin
-    if (load_i) begin
-      loaded   <= 1'b1;
-      expected <= rounded;
-    end
+    if (load_i[LAST]) expected <= rounded_late;
   end
 
   always_comb begin

@@ -5,6 +5,7 @@
 //! rank shows of a request what has been computed up to it, also after the request has gone on (a bubble does not
 //! change registers).
 
+use crate::pipelining::LineStep;
 use crate::registers::{MAX_DEGREE, Register};
 use crate::rom::{Fetched, Row};
 use crate::rounding::{Lane, Rounding};
@@ -12,7 +13,7 @@ use crate::rounding::{Lane, Rounding};
 use super::compose::{Anything, Known, Lines, Plain};
 use super::front_end::Region;
 use super::keep::{Registers, Whole};
-use super::parts::{Datapath, HEAD_RANKS};
+use super::parts::Datapath;
 use super::signals::{Signals, Status};
 use super::tail::Division;
 
@@ -53,7 +54,7 @@ impl Datapath {
     /// A request with room for all its values.
     #[must_use]
     pub fn flight(&self) -> Flight {
-        Flight { divisions: vec![Division::default(); self.divider_ranks()], ..Flight::default() }
+        Flight { divisions: vec![Division::default(); self.division_ranks()], ..Flight::default() }
     }
 
     /// The logic between the ranks.
@@ -68,26 +69,51 @@ impl Datapath {
     #[must_use]
     pub fn shown(&self, rank: usize, flight: &Flight) -> Signals {
         let last = self.rank_count() - 1;
+        let (compare, front_end) = (self.pipelining.compare_rank(), self.pipelining.front_end_rank());
         let from = |computed: usize, bits: i64| if rank >= computed { bits } else { 0 };
         let [fetched, given, result] = flight.status;
-        let division =
-            rank.checked_sub(HEAD_RANKS).and_then(|index| flight.divisions.get(index).or(flight.divisions.last()));
+        let division = rank
+            .checked_sub(self.rank_of(Register::Divisor))
+            .and_then(|index| flight.divisions.get(index).or(flight.divisions.last()));
         let row = self.row(flight.address);
-        Signals {
+        let shown = Signals {
             address: flight.address,
-            x: if rank == 0 { flight.x } else { flight.clamped_x },
-            row: if rank > 0 { row.in_segment(flight.segment) } else { row },
+            x: if rank < compare { flight.x } else { flight.clamped_x },
+            row,
             status: match rank {
-                0 => fetched,
+                _ if rank < compare => fetched,
                 _ if rank == last => result,
                 _ => given,
             },
-            region: if rank == 0 { Region::default() } else { flight.region },
-            v: from(1, flight.v),
-            t: std::array::from_fn(|stage| from(HEAD_RANKS + stage, flight.t[stage])),
-            tail_x: from(1, flight.tail_x),
+            region: if rank < compare { Region::default() } else { flight.region },
+            v: from(front_end, flight.v),
+            t: std::array::from_fn(|stage| from(self.rank_of(Register::T(stage + 1)), flight.t[stage])),
+            tail_x: from(front_end, flight.tail_x),
             division: division.copied().unwrap_or_default(),
             intensity: from(last, flight.intensity),
+            ..Signals::default()
+        };
+        let mut shown = if compare < front_end && rank >= compare { self.measured::<i128>(shown) } else { shown };
+        if rank >= front_end {
+            shown.row = row.in_segment(flight.segment);
+        }
+        self.with_lines(rank, &mut shown);
+        shown
+    }
+
+    /// Adds the products and sums that a rank shows, where there are registers for them: they follow from what else it
+    /// shows.
+    fn with_lines(&self, rank: usize, shown: &mut Signals) {
+        type Of = fn(usize) -> Register;
+        let kept = [
+            (self.pipelining.product > 1, LineStep::Partial, (|line| Register::Partial(line, 0)) as Of),
+            (self.pipelining.product > 0, LineStep::Product, Register::Product),
+            (self.pipelining.sum, LineStep::Sum, Register::Sum),
+        ];
+        for (_, step, register) in kept.into_iter().filter(|(there, ..)| *there) {
+            for line in (0..=self.degree()).filter(|&line| rank >= self.rank_of(register(line))) {
+                self.line_step::<i128>(line, step, shown);
+            }
         }
     }
 }

@@ -117,6 +117,11 @@ impl Formats {
             Register::X => Some(self.input),
             Register::Intensity => Some(self.output),
             Register::Shift(_) | Register::TailX | Register::Region | Register::Status => None,
+            Register::Product(_)
+            | Register::Sum(_)
+            | Register::Distance(_)
+            | Register::Beyond
+            | Register::Partial(..) => None,
         }
     }
 }

@@ -202,6 +202,12 @@ impl FrontEnd {
     /// a further segment's. Where the polynomial does not answer, the greatest x, or u = 0.
     #[inline(always)]
     pub fn variable<L: Lane>(&self, x: L, region: Region, start: L, shift: u32) -> L {
+        self.variable_at(x, region, start - x, shift)
+    }
+
+    /// The same where the distance from x to the start is known; the power form does not look at it.
+    #[inline(always)]
+    pub(super) fn variable_at<L: Lane>(&self, x: L, region: Region, distance: L, shift: u32) -> L {
         let answers = region == Region::Polynomial;
         match self.variable {
             None => L::ZERO,
@@ -213,7 +219,7 @@ impl FrontEnd {
                 }
             }
             Some(Variable::U { up, drop, rounding }) => {
-                let s = if answers { start - x } else { L::ZERO };
+                let s = if answers { distance } else { L::ZERO };
                 round_shift(s << (shift + up), drop, rounding)
             }
         }

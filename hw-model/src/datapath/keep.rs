@@ -8,7 +8,7 @@ use crate::format::QFormat;
 use crate::registers::{MAX_DEGREE, Register};
 use crate::rounding::Lane;
 
-use super::parts::{Datapath, HEAD_RANKS};
+use super::parts::Datapath;
 
 /// A register that keeps less than it should.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,16 +120,16 @@ impl<L: Lane> Registers<Trimmed<L>> {
             digits: of(Register::Digits),
             stage: None,
         };
-        damage.map_or(registers, |damage| registers.damaged(damage))
+        damage.map_or(registers, |damage| registers.damaged(damage, datapath.rank_of(Register::Divisor)))
     }
 
-    fn damaged(mut self, damage: &Damage) -> Self {
+    /// `first` is the divisor's rank.
+    fn damaged(mut self, damage: &Damage, first: usize) -> Self {
         let mut kept = Trimmed::to(damage.format);
         if damage.low_bit_stuck {
             kept.stuck = -(L::ONE + L::ONE);
         }
-        // The divider begins behind the head.
-        let stage = damage.rank.saturating_sub(HEAD_RANKS);
+        let stage = damage.rank.saturating_sub(first);
         match damage.register {
             Register::V => self.v = kept,
             Register::T(stage @ 1..=MAX_DEGREE) => self.t[stage - 1] = kept,

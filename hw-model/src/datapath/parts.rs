@@ -1,16 +1,13 @@
-//! The data path of one configuration: its parts, and the ranks that they make.
+//! The data path of one configuration: its parts. [`schedule`](super::schedule) has the ranks that they make.
 
-use crate::registers::Register;
+use crate::pipelining::Pipelining;
 use crate::rom::{Rom, Row};
 
 use super::formats::Formats;
 use super::front_end::FrontEnd;
-use super::signals::{RankRegister, Status};
+use super::signals::Status;
 use super::stage::{MultiplyAdd, Stages};
 use super::tail::Divider;
-
-/// Ranks before the middle: fetch and front end.
-pub const HEAD_RANKS: usize = 2;
 
 /// The data path of one configuration: every line with its alignment, and the ROM.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,20 +19,10 @@ pub struct Datapath {
     pub(crate) divider: Option<Divider>,
     /// 1 in the output's unit, or the greatest intensity of a format that does not reach 1.
     pub(crate) output_one: i64,
+    /// Where ranks of registers stand beyond the least.
+    pub(crate) pipelining: Pipelining,
     /// True when every line fits an `i64`.
     pub(crate) narrow: bool,
-}
-
-/// The name of a register with the name of its rank in front: `stage1.t1`. A register of the divider has the
-/// divider's name there, also where a multiply-add stage gives the rank its own: `tail0.divisor`.
-#[must_use]
-pub fn register_name(rank: usize, rank_name: &str, register: &str) -> String {
-    match Register::named(register) {
-        Some(Register::Divisor | Register::Remainder | Register::Digits) => {
-            format!("tail{}.{register}", rank.saturating_sub(HEAD_RANKS))
-        }
-        _ => format!("{rank_name}.{register}"),
-    }
 }
 
 impl Datapath {
@@ -92,42 +79,6 @@ impl Datapath {
     #[must_use]
     pub fn status_width(&self) -> u32 {
         self.status_flags().len() as u32
-    }
-
-    /// Number of ranks of registers, which is the latency in clock cycles.
-    #[must_use]
-    pub fn rank_count(&self) -> usize {
-        HEAD_RANKS + self.middle_ranks() + 1
-    }
-
-    /// Ranks of the divider: its divisor's, and those of its quotient bits.
-    #[must_use]
-    pub fn divider_ranks(&self) -> usize {
-        self.divider.map_or(0, |divider| 1 + divider.digit_stages() as usize)
-    }
-
-    fn middle_ranks(&self) -> usize {
-        self.degree().max(self.divider_ranks())
-    }
-
-    /// The name of a rank, as in traces and waves.
-    #[must_use]
-    pub fn rank_name(&self, rank: usize) -> String {
-        match rank {
-            0 => "fetch".to_owned(),
-            1 => "front_end".to_owned(),
-            _ if rank + 1 == self.rank_count() => "clamp".to_owned(),
-            _ if rank < HEAD_RANKS + self.degree() => {
-                format!("stage{}", rank + 1 - HEAD_RANKS)
-            }
-            _ => format!("tail{}", rank - HEAD_RANKS),
-        }
-    }
-
-    /// The name of a register of a rank, with its part's in front: see [`register_name`].
-    #[must_use]
-    pub fn register_name(&self, rank: usize, register: &RankRegister) -> String {
-        register_name(rank, &self.rank_name(rank), register.name())
     }
 
     /// Segments of the polynomial; 1 where there is no polynomial.

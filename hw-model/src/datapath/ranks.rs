@@ -1,9 +1,9 @@
 //! The ranks of registers, and the logic between them.
 //!
-//! Rank 0 (`fetch`) takes the input and the ROM word; rank 1 (`front_end`) the region and the
+//! Rank 0 (`fetch`) takes the input and the ROM word; the front end's rank the region and the
 //! variable; the middle ranks hold the stages on one side and the divider on the other, whose
 //! results wait for each other; the last (`clamp`) the intensity and the status. The number of ranks is the latency.
-//! Of a cubic:
+//! Of a cubic in the least pipeline, whose front end is rank 1:
 //!
 //! | rank     | polynomial       | tail                     |
 //! |----------|------------------|--------------------------|
@@ -12,15 +12,19 @@
 //! | 4        | stage 3: t3      | quotient bits            |
 //! | 5 …      | t3 waits         | quotient bits            |
 //!
+//! Where there are more ranks, [`schedule`](super::schedule) says which takes which step. A rank that takes none copies
+//! what is alive.
+//!
 //! What a rank takes in is computed by the steps of the composition (`compose.rs`), one at a time.
 
+use crate::pipelining::LineStep;
 use crate::registers::Register;
 use crate::rom::Fetched;
 use crate::rounding::Lane;
 
 use super::compose::{Anything, Lines};
-use super::front_end::Region;
-use super::parts::{Datapath, HEAD_RANKS};
+use super::front_end::{Region, Variable};
+use super::parts::Datapath;
 use super::signals::{Signals, Status};
 
 impl Datapath {
@@ -44,55 +48,84 @@ impl Datapath {
     }
 
     fn advance_in<L: Lane>(&self, rank: usize, before: &Signals) -> Signals {
-        if rank == 1 {
-            self.front_end_rank::<L>(before)
-        } else if rank + 1 == self.rank_count() {
-            self.clamp_rank::<L>(before)
-        } else {
-            let mut after = *before;
-            self.polynomial_rank::<L>(rank - HEAD_RANKS, &mut after);
-            self.tail_rank::<L>(rank - HEAD_RANKS, &mut after);
-            after
+        let (compare, front_end) = (self.pipelining.compare_rank(), self.pipelining.front_end_rank());
+        if rank + 1 == self.rank_count() {
+            return self.clamp_rank::<L>(before);
+        }
+        let mut after = match rank {
+            _ if rank == compare => self.compare_step::<L>(before),
+            _ if rank == front_end => self.choose_step::<L>(before),
+            _ => *before,
+        };
+        if let Some((stage, step)) = self.polynomial_step(rank) {
+            self.line_step::<L>(stage, step, &mut after);
+        }
+        self.tail_step::<L>(rank, &mut after);
+        after
+    }
+
+    /// The front end, or of a cut one all but the choice of the segment.
+    #[inline]
+    fn compare_step<L: Lane>(&self, before: &Signals) -> Signals {
+        let entered = Lines::of(self).enter::<L, Anything>(before, L::from_bits(before.x));
+        let compared = Signals { x: entered.x.to_bits(), region: entered.region, status: entered.status[1], ..*before };
+        if self.pipelining.front_end > 0 {
+            return self.measured::<L>(compared);
+        }
+        Signals {
+            row: before.row.in_segment(entered.segment),
+            v: entered.v.to_bits(),
+            tail_x: entered.tail_x.to_bits(),
+            ..compared
         }
     }
 
+    /// With the distances from a clamped x to where the segments begin, and the further segments that begin above it.
+    pub(super) fn measured<L: Lane>(&self, mut held: Signals) -> Signals {
+        let front_end = &self.front_end;
+        let x = L::from_bits(held.x);
+        held.beyond = 0;
+        for segment in 0..self.segment_count() {
+            let start = L::from_bits(front_end.start(&held, segment));
+            if let Some(Variable::U { .. }) = front_end.variable {
+                held.distance[segment] = (start - x).to_bits();
+            }
+            if segment > 0 && front_end.is_beyond(x, held.region, start) {
+                held.beyond |= 1 << (segment - 1);
+            }
+        }
+        held
+    }
+
+    /// The segment that answers, chosen by the comparisons of the rank before: its variable and its coefficients.
     #[inline]
-    fn front_end_rank<L: Lane>(&self, before: &Signals) -> Signals {
-        let entered = Lines::of(self).enter::<L, Anything>(before, L::from_bits(before.x));
+    fn choose_step<L: Lane>(&self, before: &Signals) -> Signals {
+        let segment = (i64::BITS - before.beyond.leading_zeros()) as usize;
+        let [x, distance] = [before.x, before.distance[segment]].map(L::from_bits);
+        let (front_end, region) = (&self.front_end, before.region);
         Signals {
-            x: entered.x.to_bits(),
-            region: entered.region,
-            row: before.row.in_segment(entered.segment),
-            status: entered.status[1],
-            v: entered.v.to_bits(),
-            tail_x: entered.tail_x.to_bits(),
+            row: before.row.in_segment(segment),
+            v: front_end.variable_at(x, region, distance, before.row.shift(segment)).to_bits(),
+            tail_x: front_end.tail_x(x, region).to_bits(),
             ..*before
         }
     }
 
     #[inline]
-    fn polynomial_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
-        let degree = self.degree();
-        if index >= degree {
-            return;
-        }
-        let before = if index == 0 { Register::C(0, degree) } else { Register::T(index) };
-        let addend = Register::C(0, degree - 1 - index);
-        let [t, v, addend] = [before, Register::V, addend].map(|register| L::from_bits(signals.get(register)));
-        signals.t[index] = Lines::of(self).stage(index, t, v, addend).to_bits();
-    }
-
-    #[inline]
-    fn tail_rank<L: Lane>(&self, index: usize, signals: &mut Signals) {
+    fn tail_step<L: Lane>(&self, rank: usize, signals: &mut Signals) {
         let Some(divider) = &self.divider else { return };
-        let division = if index == 0 {
-            let [x, a, b] =
-                [Register::TailX, Register::TailA, Register::TailB].map(|register| L::from_bits(signals.get(register)));
-            divider.begin(x, a, b)
-        } else {
-            divider.digit_stage(index as u32 - 1, signals.division.widened::<L>())
-        };
-        signals.division = division.narrowed();
+        if let Some(step) = self.divisor_step(rank) {
+            if step == LineStep::Result {
+                let [x, a, b] = [Register::TailX, Register::TailA, Register::TailB]
+                    .map(|register| L::from_bits(signals.get(register)));
+                signals.division = divider.begin(x, a, b).narrowed();
+            }
+            self.line_step::<L>(0, step, signals);
+        } else if let Some(index) = rank.checked_sub(self.rank_of(Register::Divisor) + 1)
+            && index < divider.digit_stages() as usize
+        {
+            signals.division = divider.digit_stage(index as u32, signals.division.widened::<L>()).narrowed();
+        }
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::format::QFormat;
-use crate::registers::{MAX_DEGREE, Register};
+use crate::registers::{MAX_DEGREE, MAX_SEGMENTS, PARTIALS, Register};
 use crate::rom::Row;
 
 use super::front_end::Region;
@@ -97,6 +97,16 @@ pub struct Signals {
     pub division: Division<i64>,
     /// The pipeline's answer, bits in the output format.
     pub intensity: i64,
+    /// How far x lies below the start of each segment, where a rank has it.
+    pub distance: [i64; MAX_SEGMENTS],
+    /// The further segments below whose hand-over x lies, a bit each, where a rank has it.
+    pub beyond: i64,
+    /// The products of the multiply-adds, the divisor's first, where a rank has them.
+    pub product: [i64; MAX_DEGREE + 1],
+    /// The products of pieces of their operands, where a rank has them.
+    pub partial: [[i64; PARTIALS]; MAX_DEGREE + 1],
+    /// Their sums before they are rounded, where a rank has them.
+    pub sum: [i64; MAX_DEGREE + 1],
 }
 
 impl Signals {
@@ -115,6 +125,11 @@ impl Signals {
             Register::Region => self.region as i64,
             Register::Status => self.status.bits().into(),
             Register::Intensity => self.intensity,
+            Register::Product(line) => self.product[line],
+            Register::Sum(line) => self.sum[line],
+            Register::Partial(line, part) => self.partial[line][part],
+            Register::Distance(segment) => self.distance[segment],
+            Register::Beyond => self.beyond,
             field => self.row.get(field),
         }
     }

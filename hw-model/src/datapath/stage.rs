@@ -185,10 +185,22 @@ impl MultiplyAdd {
     /// `addend ± multiplicand · variable`, rounded once to the result's fraction bits.
     #[inline(always)]
     pub fn apply<L: Lane>(&self, multiplicand: L, variable: L, addend: L) -> L {
-        let product = (multiplicand * variable) << self.product_up;
+        self.rounded(self.sum(multiplicand * variable, addend))
+    }
+
+    /// `addend ± product` at their common place, moved up where the result has more fraction bits; not rounded yet.
+    #[inline(always)]
+    pub(super) fn sum<L: Lane>(&self, product: L, addend: L) -> L {
+        let product = product << self.product_up;
         let addend = addend << self.addend_up;
         let sum = if self.subtract { addend - product } else { addend + product };
-        round_shift(sum << self.result_up, self.drop, self.rounding)
+        sum << self.result_up
+    }
+
+    /// A sum rounded to the result's fraction bits.
+    #[inline(always)]
+    pub(super) fn rounded<L: Lane>(&self, sum: L) -> L {
+        round_shift(sum, self.drop, self.rounding)
     }
 }
 

@@ -86,8 +86,10 @@ impl Design {
             stages: polynomial.map_or(Stages::NONE, |(_, stages)| stages),
             divider,
             output_one: config.output.max_bits().min(config.output.one()),
+            pipelining: config.pipelining,
             narrow,
         };
+        datapath.check_pipelining()?;
         doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }

@@ -93,6 +93,22 @@ impl Picture<'_> {
         found.copied().unwrap_or_else(|| self.last())
     }
 
+    /// The column of a stage of the polynomial.
+    fn of_stage(&self, stage: usize) -> Column {
+        self.of_rank(self.datapath.rank_of(Register::T(stage)))
+    }
+
+    /// The columns between the ROM's and a later one.
+    fn passed(&self, target: &Column) -> Vec<Column> {
+        let columns = self.columns.iter().skip(1);
+        columns.filter(|column| column.last < target.first).copied().collect()
+    }
+
+    /// How many ranks the part of a column has, where it is more than one.
+    pub(super) fn ranks_in(column: &Column) -> Option<String> {
+        (column.ranks() > 1).then(|| format!("{} ranks", column.ranks()))
+    }
+
     /// The title, and a dashed line where each rank's registers stand.
     fn ranks(&mut self, title: &str) {
         self.canvas.text((0.0, 14.0), title, Anchor::Start, TITLE);
@@ -144,7 +160,7 @@ impl Picture<'_> {
         let top = wire(&self.lanes, 0) - 20.0;
         let size = format!("{} × {} bits", rom.depth(), rom.layout().word_width());
         let height = self.lanes.rom_foot - top;
-        let words = ["ROM".to_owned(), size];
+        let words: Vec<String> = ["ROM".to_owned(), size].into_iter().chain(Self::ranks_in(&fetch)).collect();
         self.part((fetch.left, top), (BOX, height), colour::GREEN, &words);
         let address = format!("address_i · {}", rom.address_width());
         self.port_in(top + height / 2.0, &address, "");
@@ -152,7 +168,7 @@ impl Picture<'_> {
         self.part((fetch.left, x), (BOX, X_HEIGHT), colour::GREY, &["x".to_owned()]);
         let port = format!("x_i · {}", formats.input.width());
         self.port_in(x + X_HEIGHT / 2.0, &port, &formats.input.to_string());
-        let words = self.front_end_words();
+        let words: Vec<String> = self.front_end_words().into_iter().chain(Self::ranks_in(&front)).collect();
         let place = (front.left, self.lanes.polynomial);
         let height = self.lanes.foot - self.lanes.polynomial;
         self.part(place, (BOX, height), colour::GREY, &words);
@@ -210,45 +226,43 @@ impl Picture<'_> {
     /// A field of the ROM word on its way above the lanes.
     fn field(&mut self, name: Register, y: f64) {
         let Some(field) = self.datapath.rom().layout().field(name).copied() else { return };
-        // The rank that takes it in, and where on the box's top.
+        // The column that takes it in, and where on the box's top.
         let degree = self.datapath.degree();
         let segments = self.datapath.segment_count();
         // Of the wires to one box an upper one goes further to the right, so that they do not cross.
         let step = 12.0 / (segments.max(2) - 1) as f64;
         let of_segment = |segment: usize| 12.0 + 2.0 * step * (segment as f64 - 1.0);
-        let (rank, beside) = match name {
-            Register::Cut => (1, 36.0),
-            Register::Shift(0) => (1, 0.0),
-            Register::HandOver(segment) => (1, of_segment(segment) + step),
-            Register::Shift(segment) => (1, of_segment(segment)),
-            Register::C(_, power) if power == degree => (2, -24.0),
-            Register::C(_, power) if power + 1 == degree => (2, 24.0),
-            Register::C(_, power) => (1 + degree - power, 0.0),
-            Register::TailA => (2, -24.0),
-            Register::TailB => (2, 24.0),
-            _ => (1 + degree, 0.0),
+        let front = self.columns[1];
+        let (target, beside) = match name {
+            Register::Cut => (front, 36.0),
+            Register::Shift(0) => (front, 0.0),
+            Register::HandOver(segment) => (front, of_segment(segment) + step),
+            Register::Shift(segment) => (front, of_segment(segment)),
+            Register::C(_, power) if power == degree => (self.of_stage(1), -24.0),
+            Register::C(_, power) if power + 1 == degree => (self.of_stage(1), 24.0),
+            Register::C(_, power) => (self.of_stage(degree - power), 0.0),
+            Register::TailA => (self.of_rank(self.datapath.rank_of(Register::Divisor)), -24.0),
+            Register::TailB => (self.of_rank(self.datapath.rank_of(Register::Divisor)), 24.0),
+            _ => (self.of_stage(degree), 0.0),
         };
         // The further segments' go with the first's.
         let together = match name {
             Register::C(_, power) => segments > 1 && self.datapath.is_carried(power),
             _ => false,
         };
-        let target = self.of_rank(rank);
         let (x, top) = (target.centre() + beside, self.lanes.polynomial);
         match field.place {
             Place::Constant { .. } | Place::Stored { .. } if together => {
                 let count = COUNTS[segments];
                 let label = format!("{name} of {count} segments · {}", field.format.width());
                 self.above(y, &label, &target, beside);
-                for passed in 1..rank {
-                    let column = self.of_rank(passed);
+                for column in self.passed(&target) {
                     self.carried(&column, y);
                 }
             }
             Place::Stored { .. } => {
                 self.above(y, &labelled(name.name(), field.format), &target, beside);
-                for passed in 1..rank {
-                    let column = self.of_rank(passed);
+                for column in self.passed(&target) {
                     self.carried(&column, y);
                 }
             }
@@ -274,18 +288,19 @@ impl Picture<'_> {
         let front = self.columns[1];
         let degree = formats.degree();
         for (stage, (line, &format)) in (1..).zip(stages.iter().zip(formats.t())) {
-            let column = self.of_rank(stage + 1);
+            let column = self.of_stage(stage);
             let words =
                 [format!("stage {stage}"), line_formula(stage, degree, line.subtracts()), dropped(line.dropped_bits())];
+            let words: Vec<String> = words.into_iter().chain(Self::ranks_in(&column)).collect();
             self.part((column.left, top), (BOX, LANE), colour::BLUE, &words);
-            let next = if stage < degree { self.of_rank(stage + 2) } else { self.last() }.left;
+            let next = if stage < degree { self.of_stage(stage + 1) } else { self.last() }.left;
             let name = Register::T(stage).name();
             self.wire(column.right(), next, y, &labelled(name, format), &format.to_string());
             self.variable(stage < degree, column);
         }
         let v = self.lanes.variable;
         let variable = if self.datapath.front_end().variable == Some(Variable::X) { "v = x" } else { "v = u" };
-        let end = self.of_rank(degree + 1).centre();
+        let end = self.of_stage(degree).centre();
         self.canvas.line(&[(front.right(), v), (end, v)], colour::INK, 1.2);
         let place = (front.right() + 5.0, v);
         let words = labelled(variable, formats.v);
@@ -293,7 +308,7 @@ impl Picture<'_> {
         self.canvas.quiet((place.0, place.1 + 13.0), &formats.v.to_string(), Anchor::Start, SMALL);
         // The last result waits for the quotient.
         for column in self.columns.clone() {
-            if column.first > degree + 1 && column.last < self.datapath.rank_count() - 1 {
+            if column.first > self.of_stage(degree).last && column.last < self.datapath.rank_count() - 1 {
                 self.carried(&column, y);
             }
         }

@@ -25,16 +25,18 @@ impl Picture<'_> {
         let Some(divider) = self.datapath.divider().copied() else { return };
         let (top, front) = (self.lanes.tail, self.columns[1]);
         let y = top + LANE / 2.0;
-        let divisor = self.of_rank(2);
+        let divided = self.datapath.rank_of(Register::Divisor);
+        let divisor = self.of_rank(divided);
         let words = ["divisor".to_owned(), "D = A − B·x".to_owned(), dropped(divider.divisor.dropped_bits())];
+        let words: Vec<String> = words.into_iter().chain(Self::ranks_in(&divisor)).collect();
         self.part((divisor.left, top), (BOX, LANE), colour::ORANGE, &words);
         let x = self.datapath.tail_x_format();
         self.wire(front.right(), divisor.left, y, &labelled("tail_x", x), &x.to_string());
         if self.datapath.degree() > 0 {
             self.tail_wires(&divisor);
         }
-        let last_rank = 2 + divider.digit_stages() as usize;
-        let (first, last) = (self.of_rank(3), self.of_rank(last_rank));
+        let last_rank = divided + divider.digit_stages() as usize;
+        let (first, last) = (self.of_rank(divided + 1), self.of_rank(last_rank));
         let (bits, ranks) = (divider.digit_count, divider.digit_stages());
         let words = [
             "quotient bits".to_owned(),

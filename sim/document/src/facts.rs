@@ -1,6 +1,5 @@
 //! What is known of a design's registers: what each can hold, and how that is known.
 
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::{PolynomialReach, TailReach};
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::design::{Design, Share};
@@ -61,7 +60,9 @@ impl<'a> Facts<'a> {
             (Register::T(stage), Some(reach), _) => reach.lines.get(stage - 1).copied(),
             (Register::TailX, _, Some(reach)) => Some(reach.x),
             (Register::Divisor, _, Some(reach)) => Some(reach.divisor),
-            (Register::Remainder, _, Some(reach)) if rank == HEAD_RANKS => Some(reach.first_remainder),
+            (Register::Remainder, _, Some(reach)) if rank == self.datapath().rank_of(Register::Remainder) => {
+                Some(reach.first_remainder)
+            }
             (Register::Digits, _, Some(reach)) if rank == self.last_digits() => Some(reach.quotient),
             _ => None,
         };
@@ -119,6 +120,7 @@ impl<'a> Facts<'a> {
 
     /// The rank of the last quotient bits.
     pub(super) fn last_digits(&self) -> usize {
-        2 + self.datapath().divider().map_or(0, |divider| divider.digit_stages() as usize)
+        let stages = self.datapath().divider().map_or(0, |divider| divider.digit_stages() as usize);
+        self.datapath().rank_of(Register::Divisor) + stages
     }
 }

@@ -60,10 +60,12 @@ fn idle(datapath: &Datapath, rank: usize, registers: &[RankRegister]) -> Vec<Str
     idle
 }
 
-/// Whether there is logic that sets a flag in what a rank from the front end on holds.
+/// Whether there is logic that sets a flag in what a rank behind the first holds.
 fn can_be_set(datapath: &Datapath, rank: usize, flag: Status) -> bool {
     let input = datapath.formats().input;
     match flag {
+        // Before x is compared with anything, only the ROM has something to say.
+        _ if flag != Status::NO_WORD && rank < datapath.rank_of(Register::Region) => false,
         Status::ABOVE_ONE => input.max_bits() > input.one(),
         Status::FACING_AWAY => input.is_signed(),
         Status::CLAMPED => rank + 1 == datapath.rank_count() && datapath.degree() > 0,

@@ -1,6 +1,7 @@
 //! Where the parts of a data path stand in its picture: columns by rank, lanes by part.
 
 use hw_model::datapath::Datapath;
+use hw_model::registers::Register;
 
 /// Room for the ports on the left and on the right.
 pub(super) const PORTS: f64 = 104.0;
@@ -15,7 +16,7 @@ pub(super) const WIRE: f64 = 24.0;
 /// Where the first of those wires runs.
 const FIRST_WIRE: f64 = 74.0;
 
-/// One column: a rank, or several in which nothing new begins.
+/// One column: the ranks of a part, or several in which nothing new begins.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Column {
     /// The first rank that it stands for.
@@ -74,13 +75,18 @@ pub(super) const X_HEIGHT: f64 = 44.0;
 /// The columns, first rank to last.
 pub(super) fn columns(datapath: &Datapath) -> Vec<Column> {
     let last = datapath.rank_count() - 1;
-    // Ranks that have a column of their own.
-    let own = if datapath.degree() > 0 { datapath.degree() + 1 } else { 2 };
-    let mut spans: Vec<(usize, usize)> = (0..=own.min(last - 1)).map(|rank| (rank, rank)).collect();
-    if own + 1 < last {
-        spans.push((own + 1, last - 1));
+    // The last ranks of the parts that have a column of their own: ROM, front end, and stages or divisor.
+    let stages = (1..=datapath.degree()).map(Register::T);
+    let lines = stages.chain((datapath.degree() == 0).then_some(Register::Divisor));
+    let ends = [datapath.rank_of(Register::Region) - 1, datapath.rank_of(Register::V)];
+    let ends = ends.into_iter().chain(lines.map(|register| datapath.rank_of(register))).chain([last - 1, last]);
+    let mut spans: Vec<(usize, usize)> = Vec::new();
+    for end in ends {
+        let first = spans.last().map_or(0, |&(_, before)| before + 1);
+        if first <= end {
+            spans.push((first, end));
+        }
     }
-    spans.push((last, last));
     let place = |(index, (first, last)): (usize, (usize, usize))| Column {
         first,
         last,

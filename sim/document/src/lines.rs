@@ -145,9 +145,10 @@ fn further(datapath: &Datapath, segment: usize) -> String {
     };
     format!(
         " The {} segment answers where the polynomial does and x < {hand_over}{until}: `{hand_over}` \
-         then stands for `2^{}`, `{shift}` for `shift`, and what rank 1 loads into {} is {}.",
+         then stands for `2^{}`, `{shift}` for `shift`, and what rank {} loads into {} is {}.",
         ORDINALS[segment],
         datapath.formats().input.fraction_bits(),
+        datapath.rank_of(Register::V),
         name(&|power| Register::C(0, power)),
         name(&|power| Register::C(segment, power)),
     )

@@ -3,6 +3,8 @@
 use askama::Template;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
+use hw_model::pipelining::LineStep;
+use hw_model::registers::Register;
 use hw_model::rtl::SOURCES;
 
 use super::facts::Facts;
@@ -74,6 +76,33 @@ pub(super) fn page(
 }
 
 impl Page<'_> {
+    fn front_end_ranks(&self) -> String {
+        let (compare, choose) = (self.datapath.rank_of(Register::Region), self.datapath.rank_of(Register::V));
+        if compare == choose {
+            return format!("rank {choose}");
+        }
+        format!("ranks {compare} and {choose}: the comparisons, and behind them the choice of the variable")
+    }
+
+    /// Where the dividend is taken in, as wide as the other labels beside it.
+    fn dividend_rank(&self) -> String {
+        format!("{:<12}", format!("rank {}", self.datapath.rank_of(Register::Divisor)))
+    }
+
+    /// What the ranks of a multiply-add take in.
+    fn line_ranks(&self) -> String {
+        let pipelining = self.datapath.pipelining();
+        let step = |index| match pipelining.line_step(index) {
+            LineStep::Operands => "copies of the operands",
+            LineStep::Partial => "products of pieces of the operands",
+            LineStep::Product => "the product",
+            LineStep::Sum => "the sum, not rounded yet",
+            LineStep::Result => "the result",
+        };
+        let steps: Vec<&str> = (0..pipelining.line_ranks()).map(step).collect();
+        format!("Ranks of each multiply-add, one after the other: {}.", steps.join("; "))
+    }
+
     fn digits_of(&self) -> String {
         let Some(divider) = self.datapath.divider() else { return String::new() };
         let (all, each) = (divider.digit_count, divider.digits_per_stage);

@@ -1,7 +1,6 @@
 //! Why a register is as wide as it is, in words.
 
 use hw_model::config::Config;
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::front_end::Variable;
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::design::Share;
@@ -71,7 +70,18 @@ impl<'a> Reasons<'a> {
     pub(super) fn width(&self, rank: usize, register: &RankRegister, held: &Held) -> String {
         let format = register.format;
         match register.register {
+            Register::X if rank > 0 && rank == self.datapath().rank_of(Register::Region) => {
+                "x clamped to [0, 1]: no sign, and 1 itself must fit where x reaches it".to_owned()
+            }
             Register::X => "the input format".to_owned(),
+            Register::Product(_) => "the product is kept whole: the bits of both operands".to_owned(),
+            Register::Partial(..) => "the bits of both pieces".to_owned(),
+            Register::Sum(_) => "the bits of the result, those rounded off, and a bit and a sign for what \
+                                 rounding brings back into its format"
+                .to_owned(),
+            Register::Distance(0) => "1 − x, with x clamped to [0, 1]".to_owned(),
+            Register::Distance(_) => "hand-over − x, and a sign for an x that another segment answers".to_owned(),
+            Register::Beyond => "one bit a further segment".to_owned(),
             Register::Region => "three regions".to_owned(),
             Register::Status => "one bit a flag".to_owned(),
             Register::TailX => {
@@ -82,7 +92,7 @@ impl<'a> Reasons<'a> {
             Register::Cut => end_width("cut", "cut", self.cut_up(), format),
             Register::HandOver(_) => end_width("hand_over", "one", self.hand_over_up(), format),
             Register::Shift(_) => format!("e is at most {}", held.greatest),
-            Register::Remainder if rank == HEAD_RANKS => {
+            Register::Remainder if rank == self.datapath().rank_of(Register::Remainder) => {
                 "the upper part of x·2^k, less than D (see the divider)".to_owned()
             }
             Register::Remainder => "every remainder is less than D".to_owned(),

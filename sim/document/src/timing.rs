@@ -10,8 +10,10 @@ use plot::canvas::{Anchor, Canvas, Point, colour};
 const LINE: f64 = 26.0;
 /// Height of a wave in it.
 const WAVE: f64 = 16.0;
-/// Where the waves begin.
+/// Where the waves begin, unless a label wants more room.
 const LEFT: f64 = 128.0;
+/// Between a label and the waves.
+const SPACE: f64 = 10.0;
 /// Title, words above shaded cycles, cycle numbers.
 const HEAD: f64 = 66.0;
 /// How far a bus leans where its value changes.
@@ -22,6 +24,31 @@ const NORMAL: f64 = 12.0;
 const TITLE: f64 = 14.0;
 /// Widest letter of a hexadecimal number or a name at [`SMALL`].
 const LETTER: f64 = 6.8;
+/// The same of a label, at [`NORMAL`].
+const LABEL_LETTER: f64 = 7.0;
+/// A label of so many letters has room in the usual place.
+const LONGEST_LABEL: usize = 17;
+
+/// Where cycles stand.
+#[derive(Clone, Copy)]
+struct Grid {
+    /// Where the first begins.
+    left: f64,
+    /// How wide each is.
+    column: f64,
+}
+
+impl Grid {
+    fn of(lines: &[(String, Line)]) -> Self {
+        let longest = lines.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+        let labels = (longest as f64 * LABEL_LETTER + SPACE).ceil();
+        Self { left: if longest > LONGEST_LABEL { LEFT.max(labels) } else { LEFT }, column: column(lines) }
+    }
+
+    fn at(self, cycle: usize) -> f64 {
+        self.left + self.column * cycle as f64
+    }
+}
 
 /// What a line shows in each cycle.
 enum Line {
@@ -43,20 +70,20 @@ struct Word {
 /// Draws the timing diagram of a recorded run as SVG.
 pub(super) fn timing(datapath: &Datapath, scenario: &Scenario) -> String {
     let lines = lines(datapath, scenario);
-    let column = column(&lines);
+    let grid = Grid::of(&lines);
     let cycles = scenario.samples.len();
-    let size = (LEFT + column * cycles as f64, HEAD + LINE * lines.len() as f64 + 4.0);
+    let size = (grid.at(cycles), HEAD + LINE * lines.len() as f64 + 4.0);
     let mut canvas = Canvas::new();
     canvas.text((0.0, 14.0), scenario.title, Anchor::Start, TITLE);
-    shade(&mut canvas, scenario, column, size.1);
-    grid(&mut canvas, cycles, column, size.1);
+    shade(&mut canvas, scenario, grid, size.1);
+    edges(&mut canvas, cycles, grid, size.1);
     for (index, (label, line)) in lines.iter().enumerate() {
         let top = HEAD + LINE * index as f64 + (LINE - WAVE) / 2.0;
-        canvas.text((LEFT - 10.0, top + WAVE - 4.0), label, Anchor::End, NORMAL);
+        canvas.text((grid.left - SPACE, top + WAVE - 4.0), label, Anchor::End, NORMAL);
         match line {
-            Line::Clock => clock(&mut canvas, cycles, column, top),
-            Line::Bit(values) => bit(&mut canvas, values, column, top),
-            Line::Bus(words) => bus(&mut canvas, words, column, top),
+            Line::Clock => clock(&mut canvas, cycles, grid, top),
+            Line::Bit(values) => bit(&mut canvas, values, grid, top),
+            Line::Bus(words) => bus(&mut canvas, words, grid, top),
         }
     }
     // A long title may be wider than a short run.
@@ -122,54 +149,50 @@ fn column(lines: &[(String, Line)]) -> f64 {
     (letters as f64 * LETTER + 4.0 * SLANT).ceil()
 }
 
-fn at(cycle: usize, column: f64) -> f64 {
-    LEFT + column * cycle as f64
-}
-
-fn shade(canvas: &mut Canvas, scenario: &Scenario, column: f64, bottom: f64) {
+fn shade(canvas: &mut Canvas, scenario: &Scenario, grid: Grid, bottom: f64) {
     for &(first, end, words) in &scenario.spans {
-        let (left, right) = (at(first, column), at(end, column));
+        let (left, right) = (grid.at(first), grid.at(end));
         canvas.block((left, HEAD - 22.0), (right - left, bottom - HEAD + 22.0), colour::SHADE);
         canvas.text((left.midpoint(right), HEAD - 26.0), words, Anchor::Middle, NORMAL);
     }
 }
 
 /// A line at each rising edge, and the number of each cycle.
-fn grid(canvas: &mut Canvas, cycles: usize, column: f64, bottom: f64) {
-    canvas.quiet((LEFT - 10.0, HEAD - 8.0), "cycle", Anchor::End, SMALL);
+fn edges(canvas: &mut Canvas, cycles: usize, grid: Grid, bottom: f64) {
+    canvas.quiet((grid.left - SPACE, HEAD - 8.0), "cycle", Anchor::End, SMALL);
     for cycle in 0..=cycles {
-        let x = at(cycle, column);
+        let x = grid.at(cycle);
         canvas.dashes(&[(x, HEAD - 4.0), (x, bottom)], colour::FAINT);
         if cycle < cycles {
-            canvas.quiet((x + column / 2.0, HEAD - 8.0), &cycle.to_string(), Anchor::Middle, SMALL);
+            canvas.quiet((x + grid.column / 2.0, HEAD - 8.0), &cycle.to_string(), Anchor::Middle, SMALL);
         }
     }
 }
 
 /// High in the first half of a cycle: it begins and ends with a rising edge.
-fn clock(canvas: &mut Canvas, cycles: usize, column: f64, top: f64) {
-    let mut points = vec![(LEFT, top + WAVE)];
+fn clock(canvas: &mut Canvas, cycles: usize, grid: Grid, top: f64) {
+    let mut points = vec![(grid.left, top + WAVE)];
     for cycle in 0..cycles {
-        let (x, half) = (at(cycle, column), column / 2.0);
-        points.extend([(x, top), (x + half, top), (x + half, top + WAVE), (x + column, top + WAVE)]);
+        let (x, half) = (grid.at(cycle), grid.column / 2.0);
+        points.extend([(x, top), (x + half, top), (x + half, top + WAVE), (x + grid.column, top + WAVE)]);
     }
     canvas.line(&points, colour::INK, 1.4);
 }
 
-fn bit(canvas: &mut Canvas, values: &[bool], column: f64, top: f64) {
+fn bit(canvas: &mut Canvas, values: &[bool], grid: Grid, top: f64) {
     let level = |value: bool| if value { top } else { top + WAVE };
     let ends = |(cycle, &value): (usize, &bool)| -> [Point; 2] {
-        [(at(cycle, column), level(value)), (at(cycle + 1, column), level(value))]
+        [(grid.at(cycle), level(value)), (grid.at(cycle + 1), level(value))]
     };
     let points: Vec<Point> = values.iter().enumerate().flat_map(ends).collect();
     canvas.line(&points, colour::INK, 1.6);
 }
 
-fn bus(canvas: &mut Canvas, words: &[Option<Word>], column: f64, top: f64) {
+fn bus(canvas: &mut Canvas, words: &[Option<Word>], grid: Grid, top: f64) {
     let mut first = 0;
     while first < words.len() {
         let same = words[first..].iter().take_while(|word| **word == words[first]).count();
-        let (left, right) = (at(first, column), at(first + same, column));
+        let (left, right) = (grid.at(first), grid.at(first + same));
         match &words[first] {
             None => {
                 let middle = top + WAVE / 2.0;

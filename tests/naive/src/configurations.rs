@@ -7,6 +7,7 @@ use hw_model::domain::Presented;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
+use hw_model::pipelining::Pipelining;
 use hw_model::presets;
 use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
@@ -107,7 +108,21 @@ pub fn random(random: &mut Random) -> Config {
     if config.tail == Tail::Zero && random.once_in(6) {
         state_domain(random, &mut config);
     }
+    if random.once_in(2) {
+        config.pipelining = pipelining(random);
+    }
     config
+}
+
+/// Ranks of registers in some of the places where there can be more.
+fn pipelining(random: &mut Random) -> Pipelining {
+    Pipelining {
+        rom: random.once_in(2),
+        front_end: random.integer(0, 1) as u32,
+        operands: random.once_in(2),
+        product: random.integer(0, 2) as u32,
+        sum: random.once_in(2),
+    }
 }
 
 /// A domain that begins at or above every cut, or rarely below one.

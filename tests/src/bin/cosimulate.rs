@@ -42,7 +42,7 @@ const COVERING: [&str; 3] = ["paper", "compact", "precise"];
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 7] = [
+const SMALL: [(&str, Strategy, &str); 11] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -83,12 +83,46 @@ const SMALL: [(&str, Strategy, &str); 7] = [
             "input": "UQ1.9", "output": "UQ1.7", "form": "power", "tail": "rational",
             "rounding": "floor", "error_budget_ulp": 3}"#,
     ),
+    // Ranks of registers in every place, with one segment and with eight, and with a divider in both forms.
+    (
+        "small_deep",
+        Strategy::Exhaustive,
+        r#"{"name": "small_deep", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "rounding": "nearest_even", "pipelining":
+            {"rom": true, "front_end": 1, "operands": true, "product": 1, "sum": true}}"#,
+    ),
+    (
+        "small_lines_deep",
+        Strategy::Exhaustive,
+        r#"{"name": "small_lines_deep", "method": "minimax", "degree": 2, "segments": 8,
+            "exponents": "1,2,5,16,40", "input": "Q2.9", "output": "UQ1.8", "cut": "balanced",
+            "rounding": "toward_zero", "error_budget_ulp": 2, "pipelining":
+            {"front_end": 1, "product": 1}}"#,
+    ),
+    (
+        "small_tail_deep",
+        Strategy::Exhaustive,
+        r#"{"name": "small_tail_deep", "method": "hermite", "exponents": "1..=16", "input": "UQ1.7",
+            "output": "UQ0.8", "form": "power", "tail": "rational", "rounding": "toward_zero",
+            "error_budget_ulp": 2, "quotient_bits_per_stage": 1, "pipelining":
+            {"rom": true, "front_end": 1, "operands": true, "product": 1, "sum": true}}"#,
+    ),
+    (
+        "small_wait_deep",
+        Strategy::Exhaustive,
+        r#"{"name": "small_wait_deep", "method": "hermite", "exponents": "1..=16", "input": "Q2.7",
+            "output": "UQ0.8", "form": "centred", "tail": "rational", "rounding": "floor",
+            "error_budget_ulp": 3, "quotient_bits_per_stage": 8, "pipelining":
+            {"rom": true, "operands": true, "sum": true}}"#,
+    ),
 ];
 
-/// Other degrees and numbers of segments than the presets have, compared like a preset.
-const EXAMPLES: [(&str, &str); 2] = [
+/// Other degrees, numbers of segments and ranks than the presets have, compared like a preset.
+const EXAMPLES: [(&str, &str); 4] = [
     ("parabolas", include_str!("../../../docs/examples/parabolas.json")),
     ("quartics", include_str!("../../../docs/examples/quartics.json")),
+    ("compact_deep", include_str!("../../../docs/examples/compact_deep.json")),
+    ("precise_deep", include_str!("../../../docs/examples/precise_deep.json")),
 ];
 
 /// Scenes whose own hardware is compared like a preset: one that never leaves the epicentre, one of small exponents.

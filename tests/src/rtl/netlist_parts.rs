@@ -71,10 +71,16 @@ fn multipliers(datapath: &Datapath) -> Part {
     };
     let needed = |field| !one_bit(field) && constant(datapath, field).is_none_or(|bits| bits.count_ones() > 1);
     let degree = datapath.degree();
-    let first = u64::from(needed(Register::C(0, degree)));
-    let polynomial = if degree > 0 { degree as u64 - 1 + first } else { 0 };
-    let tail = datapath.divider().map_or(0, |_| u64::from(needed(Register::TailB)));
-    ("multipliers", "t:$mul", polynomial + tail)
+    // A product in pieces has one for each of them.
+    let of_line = |line| {
+        let registers = datapath.registers(datapath.rank_of(Register::Partial(line, 0))).into_iter();
+        let pieces = registers.filter(|held| matches!(held.register, Register::Partial(of, _) if of == line));
+        pieces.count().max(1) as u64
+    };
+    let first = (degree > 0 && needed(Register::C(0, degree))).then_some(1);
+    let tail = datapath.divider().and_then(|_| needed(Register::TailB).then_some(0));
+    let lines = first.into_iter().chain(2..=degree).chain(tail);
+    ("multipliers", "t:$mul", lines.map(of_line).sum())
 }
 
 /// The bits of a field that is the same in every row.

@@ -1,6 +1,6 @@
 //! What a log of answers may have in its columns.
 
-use hw_model::datapath::register_name;
+use hw_model::datapath::{FRONT_END, register_name};
 use hw_model::format::QFormat;
 
 use crate::manifest::Manifest;
@@ -31,10 +31,11 @@ impl Column {
 pub(super) fn columns(manifest: &Manifest) -> Vec<Column> {
     let ranks = &manifest.hardware.ranks;
     let last = ranks.len().saturating_sub(1);
+    let head = ranks.iter().position(|rank| rank.name == FRONT_END).map_or(0, |rank| rank + 1);
     let registers = (0..).zip(ranks).flat_map(|(rank, list)| {
         let computed = list.registers.iter().filter(|register| register.computed);
         computed.map(move |register| {
-            let name = register_name(rank, &list.name, &register.name);
+            let name = register_name(head, rank, &list.name, &register.name);
             // The table does not say twice what a port shows.
             let table = match register.name.as_str() {
                 "x" if rank == 0 => "x_bits",

@@ -1,6 +1,5 @@
 //! What faulty hardware answers: the data path, with what one rank takes in exchanged.
 
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::front_end::{FrontEnd, Region};
 use hw_model::datapath::tail::Division;
 use hw_model::datapath::{Datapath, Signals, Status};
@@ -8,7 +7,7 @@ use hw_model::format::QFormat;
 use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
 
-use super::fault::{DATA, Defect, Fault, Logic, place};
+use super::fault::{Defect, Fault, Logic, is_data, place};
 use crate::case::Case;
 use crate::reference::Expected;
 
@@ -38,7 +37,7 @@ impl<'a> Model<'a> {
     pub fn new(datapath: &'a Datapath) -> Self {
         let of_rank = |rank| {
             let computed = datapath.registers(rank).into_iter().filter(|held| held.computed);
-            let known = computed.filter(|held| DATA.contains(&held.register));
+            let known = computed.filter(|held| is_data(held.register));
             known.map(|held| (held.register, held.format)).collect()
         };
         Self {
@@ -62,16 +61,16 @@ impl<'a> Model<'a> {
             Fault::Field(_) | Fault::Swap(_) => 0,
             Fault::Register(rank, ..) => rank,
             Fault::Rounding(line, _) => match line {
-                Register::V => 1,
-                Register::T(stage) => HEAD_RANKS + stage - 1,
-                Register::Divisor => HEAD_RANKS,
+                Register::V | Register::T(_) | Register::Divisor => self.datapath.rank_of(line),
                 _ => last,
             },
             Fault::Logic(logic) => match logic {
                 Logic::NoClampBelow | Logic::NoClampAbove | Logic::NoQuotientClamp | Logic::NoFlag(_) => last,
                 // The divider's first rank has the divisor, the first quotient bits come in the next.
-                Logic::DigitMissing => HEAD_RANKS + self.digit_stages() as usize,
-                _ => 1,
+                Logic::DigitMissing => self.datapath.rank_of(Register::Divisor) + self.digit_stages() as usize,
+                // In a cut front end it is chosen behind the comparisons.
+                Logic::ShiftMore(_) | Logic::ShiftLess => self.datapath.rank_of(Register::V),
+                _ => self.datapath.rank_of(Register::Region),
             },
         }
     }
@@ -246,8 +245,12 @@ impl Faulty<'_> {
             Logic::HandOverExclusive(segment) => {
                 let hand_over = path.front_end().hand_over(&before.row, segment);
                 if held.region == Region::Polynomial && held.x == hand_over && hand_over > 0 {
-                    held.row = before.row.in_segment(segment);
-                    held.v = 0;
+                    if self.chooses_later() {
+                        held.beyond |= 1 << (segment - 1);
+                    } else {
+                        held.row = before.row.in_segment(segment);
+                        held.v = 0;
+                    }
                 }
             }
             Logic::NoInputClamp => *held = path.advance(self.rank, before),
@@ -298,10 +301,20 @@ impl Faulty<'_> {
             Region::Polynomial => front_end.segment_of(row, held.x),
             _ => 0,
         };
+        if self.chooses_later() {
+            held.beyond = if segment > 0 { 1 << (segment - 1) } else { 0 };
+            return;
+        }
         let (start, shift) = (front_end.start(row, segment).into(), row.shift(segment));
         held.row = row.in_segment(segment);
         held.v = front_end.variable(x, held.region, start, shift) as i64;
         held.tail_x = front_end.tail_x(held.x, held.region);
+    }
+
+    /// True where the front end is cut: the rank that compares x does not choose the segment yet.
+    fn chooses_later(&self) -> bool {
+        let datapath = self.model.datapath;
+        datapath.rank_of(Register::Region) < datapath.rank_of(Register::V)
     }
 
     /// The last rank of quotient bits, with one less.

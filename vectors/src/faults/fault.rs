@@ -3,7 +3,7 @@
 use std::fmt;
 
 use hw_model::datapath::{Signals, Status};
-use hw_model::registers::{MAX_DEGREE, Register};
+use hw_model::registers::{MAX_DEGREE, MAX_SEGMENTS, PARTIALS, Register};
 use hw_model::rounding::Rounding;
 
 /// Faults of the handshake: which cycle a result comes in, and whether it comes at all. They need a
@@ -70,27 +70,24 @@ pub enum Fault {
     /// The line that gives this register its value rounds by another mode: V, T(j), the divisor, or for the quotient
     /// the intensity.
     Rounding(Register, Rounding),
-    /// A register of this rank, one of [`DATA`].
+    /// A register of this rank that [`is_data`].
     Register(usize, Register, Defect),
     /// A choice.
     Logic(Logic),
 }
 
-/// The registers of the data path that hold numbers: what has a defect shows in them.
-pub const DATA: [Register; MAX_DEGREE + 6] = [
-    Register::V,
-    Register::T(1),
-    Register::T(2),
-    Register::T(3),
-    Register::T(4),
-    Register::TailX,
-    Register::Divisor,
-    Register::Remainder,
-    Register::Digits,
-    Register::Intensity,
-];
+/// True for the registers of the data path that hold numbers: what has a defect shows in them.
+#[must_use]
+pub const fn is_data(register: Register) -> bool {
+    match register {
+        Register::V | Register::T(_) | Register::Intensity => true,
+        Register::TailX | Register::Divisor | Register::Remainder | Register::Digits => true,
+        Register::Partial(..) | Register::Product(_) | Register::Sum(_) | Register::Distance(_) => true,
+        _ => false,
+    }
+}
 
-/// The place of one of [`DATA`] in what a rank holds; none of another register.
+/// The place of a register that [`is_data`] in what a rank holds; none of another one.
 pub const fn place(register: Register, signals: &mut Signals) -> Option<&mut i64> {
     match register {
         Register::V => Some(&mut signals.v),
@@ -100,6 +97,10 @@ pub const fn place(register: Register, signals: &mut Signals) -> Option<&mut i64
         Register::Remainder => Some(&mut signals.division.remainder),
         Register::Digits => Some(&mut signals.division.digits),
         Register::Intensity => Some(&mut signals.intensity),
+        Register::Product(line @ 0..=MAX_DEGREE) => Some(&mut signals.product[line]),
+        Register::Partial(line @ 0..=MAX_DEGREE, part @ 0..PARTIALS) => Some(&mut signals.partial[line][part]),
+        Register::Sum(line @ 0..=MAX_DEGREE) => Some(&mut signals.sum[line]),
+        Register::Distance(segment @ 0..MAX_SEGMENTS) => Some(&mut signals.distance[segment]),
         _ => None,
     }
 }

@@ -6,7 +6,7 @@ use hw_model::registers::Register;
 use hw_model::rom::Place;
 use hw_model::rounding::Rounding;
 
-use super::fault::{DATA, Defect, Fault, FieldFault, Logic};
+use super::fault::{Defect, Fault, FieldFault, Logic, is_data};
 
 /// The faults of one row: each stored field one unit up and one down, where its format holds that.
 /// At most twice the fields.
@@ -74,7 +74,7 @@ fn registers(datapath: &Datapath) -> Vec<Fault> {
     for rank in 1..datapath.rank_count() {
         for held in datapath.registers(rank).iter().filter(|held| held.computed) {
             let register = held.register;
-            if !DATA.contains(&register) {
+            if !is_data(register) {
                 continue;
             }
             if held.format.width() > 1 {

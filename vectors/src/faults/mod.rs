@@ -27,7 +27,7 @@ mod screen;
 
 pub use compact::{Compact, FaultFate, OneByOne, Workers, exhaust};
 pub use evaluate::{Faulty, Model};
-pub use fault::{DATA, Defect, Fault, FieldFault, HANDSHAKE, Logic, line_name};
+pub use fault::{Defect, Fault, FieldFault, HANDSHAKE, Logic, line_name};
 pub use list::{field_faults, pipeline_faults};
 pub use rows::{Mask, RowFaults};
 pub use screen::Screen;

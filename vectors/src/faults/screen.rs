@@ -60,7 +60,7 @@ impl Screen {
                 let path = faulty.altered().unwrap_or(datapath);
                 path.evaluate_row(row, None, xs, &mut self.wrong);
             }
-            Fault::Register(rank, register, defect) if register != Register::Intensity => {
+            Fault::Register(rank, register, defect) if keeps_in_blocks(register) => {
                 let damage = damage(faulty, rank, register, defect);
                 datapath.evaluate_row(row, damage.as_ref(), xs, &mut self.wrong);
             }
@@ -92,6 +92,15 @@ impl Screen {
     }
 }
 
+/// True for the registers of the least pipeline, which the block engine has; the output's is judged one by one.
+const fn keeps_in_blocks(register: Register) -> bool {
+    match register {
+        Register::V | Register::T(_) => true,
+        Register::TailX | Register::Divisor | Register::Remainder | Register::Digits => true,
+        _ => false,
+    }
+}
+
 fn damage(faulty: &Faulty<'_>, rank: usize, register: Register, defect: Defect) -> Option<Damage> {
     let format = faulty.format(register)?;
     let (format, low_bit_stuck) = match defect {
@@ -109,13 +118,12 @@ fn is_met(fault: Fault, datapath: &Datapath, row: &Row, xs: &[i64]) -> bool {
         _ => datapath.front_end().cut(row),
     };
     match fault {
-        Fault::Rounding(Register::V | Register::T(_), _) | Fault::Register(_, Register::V | Register::T(_), _) => {
-            high >= cut
-        }
-        Fault::Rounding(..)
-        | Fault::Register(_, Register::TailX | Register::Divisor | Register::Remainder | Register::Digits, _) => {
-            low < cut
-        }
+        Fault::Rounding(register, _) | Fault::Register(_, register, _) => match register {
+            Register::V | Register::T(_) | Register::Distance(_) => high >= cut,
+            Register::Partial(1.., _) | Register::Product(1..) | Register::Sum(1..) => high >= cut,
+            Register::Intensity if matches!(fault, Fault::Register(..)) => true,
+            _ => low < cut,
+        },
         _ => true,
     }
 }

@@ -15,6 +15,7 @@ use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
+use hw_model::pipelining::{PIECE, Pipelining};
 use hw_model::registers::Register;
 use hw_model::rom::{Field, Place};
 use hw_model::rounding::Rounding;
@@ -41,6 +42,7 @@ pub fn package(design: &Design, command: &str) -> String {
         sections: vec![
             rounding_modes(),
             parts(design),
+            pipelining(datapath),
             ports(datapath),
             rom(datapath),
             fields(datapath),
@@ -181,6 +183,17 @@ fn parts(design: &Design) -> Section {
         .integer("RANKS", datapath.rank_count() as i64)
 }
 
+fn pipelining(datapath: &Datapath) -> Section {
+    let Pipelining { rom, front_end, operands, product, sum } = *datapath.pipelining();
+    Section::new("Ranks of registers beyond the least")
+        .integer("ROM_RANKS", i64::from(rom))
+        .integer("FRONT_END_RANKS", front_end)
+        .integer("OPERAND_RANKS", i64::from(operands))
+        .integer("PRODUCT_RANKS", product)
+        .integer("PRODUCT_PIECE", PIECE)
+        .integer("SUM_RANKS", i64::from(sum))
+}
+
 /// The degree; 1 where there is no polynomial, whose constants are named all the same.
 fn degree(datapath: &Datapath) -> usize {
     datapath.degree().max(1)
@@ -245,6 +258,7 @@ fn fields(datapath: &Datapath) -> Section {
         .integer("FIELDS_WIDTH", place)
         .vector("FIELD_WIDTH", all("WIDTH"))
         .vector("FIELD_STORED", all("STORED"))
+        .vector("FIELD_CHOSEN", fields.iter().map(|field| i64::from(is_chosen(field)).to_string()))
         .vector("FIELD_LSB", all("LSB"))
         .vector("FIELD_PLACE", all("PLACE"));
     section.constants.push(Constant {
@@ -253,6 +267,12 @@ fn fields(datapath: &Datapath) -> Section {
         comment: String::new(),
     });
     by_segment(datapath, section)
+}
+
+/// True for a field of the word that is read behind the comparisons of x.
+fn is_chosen(field: &Field) -> bool {
+    let compared = matches!(field.name, Register::Cut | Register::HandOver(_));
+    matches!(field.place, Place::Stored { .. }) && !compared
 }
 
 /// The constants of fields that the RTL names and the word does not have.

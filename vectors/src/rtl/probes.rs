@@ -1,6 +1,5 @@
 //! What ports and registers are called: in traces, in waves, and in the RTL. `docs/FILES.md` has the table.
 
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::format::QFormat;
 use hw_model::registers::Register;
@@ -89,38 +88,120 @@ pub fn valid_wave(datapath: &Datapath, rank: usize) -> String {
 pub const FETCH_STATUS: &str = "fetch_status";
 
 fn path(datapath: &Datapath, rank: usize, register: Register) -> String {
-    let last = datapath.rank_count() - 1;
-    let degree = datapath.degree();
-    match (rank, register) {
-        (0, Register::X) => "x_q".to_owned(),
-        (0, Register::Status) => FETCH_STATUS.to_owned(),
-        (0, field) => rom_field(datapath, field),
-        (_, Register::Intensity | Register::Status) if rank == last => {
-            format!("clamp.{register}_q")
-        }
-        (1, Register::V) => "front_end.variable.v_q".to_owned(),
-        (1, Register::TailX) => "front_end.tail.tail_x_q".to_owned(),
-        (1, Register::Region | Register::Status) => format!("front_end.{register}_q"),
-        (_, Register::Region | Register::Status) => carried(&format!("{register}_delay"), rank - HEAD_RANKS),
-        (_, Register::C(_, power)) => carried(&format!("polynomial.coefficient[{power}].delay"), rank - 1),
-        (_, Register::TailA) => carried("tail.a_delay", rank - 1),
-        (_, Register::TailB) => carried("tail.b_delay", rank - 1),
-        (_, Register::V) => carried(&format!("polynomial.stage[{rank}].later.v_delay"), 0),
-        (_, Register::T(stage)) if rank > degree + 1 => {
-            carried("polynomial.wait_for_tail.t_delay", rank - stage - HEAD_RANKS)
-        }
-        (_, Register::T(stage)) => format!("polynomial.stage[{stage}].multiply_add.t_q"),
-        (HEAD_RANKS, Register::Divisor) => "tail.divider.divisor_stage.t_q".to_owned(),
-        (HEAD_RANKS, division) => format!("tail.divider.{division}_q"),
-        (_, division) => digit_stage(datapath, rank - HEAD_RANKS - 1, division),
+    let pipelining = datapath.pipelining();
+    let (compare, front_end) = (pipelining.compare_rank(), pipelining.front_end_rank());
+    if rank + 1 == datapath.rank_count() {
+        return format!("clamp.{register}_q");
+    }
+    match rank {
+        _ if rank < compare => in_fetch(datapath, rank, register),
+        _ if rank < front_end => in_compare(datapath, register),
+        _ => behind_front_end(datapath, rank - front_end, register),
     }
 }
 
-/// A field of the ROM word, which the RTL has by its number.
-fn rom_field(datapath: &Datapath, register: Register) -> String {
+/// The fetched word with x, in its first rank or behind it.
+fn in_fetch(datapath: &Datapath, rank: usize, register: Register) -> String {
+    match (rank, register) {
+        (0, Register::X) => "x_q".to_owned(),
+        (0, Register::Status) => FETCH_STATUS.to_owned(),
+        (_, Register::X | Register::Status) => carried(&format!("{register}_behind_rom"), 0),
+        (_, field) if rank + 1 == datapath.pipelining().compare_rank() => rom_field(datapath, "value", field),
+        (_, field) => rom_field(datapath, "behind.fetched", field),
+    }
+}
+
+/// The rank that cuts the front end.
+fn in_compare(datapath: &Datapath, register: Register) -> String {
+    let part = match register {
+        Register::X | Register::Region | Register::Status => format!("front_end.held_{register}"),
+        Register::Beyond => "front_end.several_segments.held_beyond".to_owned(),
+        Register::Distance(segment) => format!("front_end.segment[{segment}].distance.held"),
+        field => return carried(&format!("word_field[{}].held", field_number(datapath, field)), 0),
+    };
+    carried(&part, 0)
+}
+
+/// Registers of the front end's rank and of the middle ones, `rank` counted from the front end's.
+fn behind_front_end(datapath: &Datapath, rank: usize, register: Register) -> String {
+    let pipelining = datapath.pipelining();
+    let operands = usize::from(pipelining.operands);
+    // The step of the multiply-add that the rank takes, and the stage.
+    let line = pipelining.line_ranks();
+    let (stage, step) = match rank.checked_sub(1) {
+        Some(index) => (1 + index / line, index % line),
+        None => (0, 0),
+    };
+    let copied = operands == 1 && rank > 0 && step == 0;
+    match register {
+        Register::V if rank == 0 => "front_end.variable.v_q".to_owned(),
+        Register::TailX if rank == 0 => "front_end.tail.tail_x_q".to_owned(),
+        Register::Region | Register::Status if rank == 0 => format!("front_end.{register}_q"),
+        Register::Region | Register::Status => carried(&format!("{register}_delay"), rank - 1),
+        Register::V if copied => operand(&format!("polynomial.stage[{stage}].multiply_add"), "variable"),
+        Register::V => carried(&format!("polynomial.stage[{}].later.v_delay", stage + 1), step - operands),
+        Register::C(_, power) if copied && power == datapath.degree() => {
+            operand("polynomial.stage[1].multiply_add", "multiplicand")
+        }
+        Register::C(_, power) => carried(&format!("polynomial.coefficient[{power}].delay"), rank),
+        Register::T(last) => result(datapath, rank, last),
+        Register::Partial(1.., _) | Register::Product(1..) | Register::Sum(1..) => {
+            inside(&format!("polynomial.stage[{stage}].multiply_add"), register)
+        }
+        _ => in_tail(datapath, rank, register),
+    }
+}
+
+/// A copied operand of a multiply-add.
+fn operand(stage: &str, which: &str) -> String {
+    carried(&format!("{stage}.operands.{which}_copy"), 0)
+}
+
+/// A register inside a multiply-add.
+fn inside(line: &str, register: Register) -> String {
+    match register {
+        Register::Partial(_, part) => format!("{line}.pieces.upper[{}].by[{}].part_q", part / 2, part % 2),
+        Register::Sum(_) => format!("{line}.sum_register.sum_q"),
+        _ => format!("{line}.product_register.product_q"),
+    }
+}
+
+/// The result of a stage: where it is computed, where it is an operand of the next, and where the last one waits.
+fn result(datapath: &Datapath, rank: usize, stage: usize) -> String {
+    let since = rank - stage * datapath.pipelining().line_ranks();
+    match since {
+        0 => format!("polynomial.stage[{stage}].multiply_add.t_q"),
+        _ if stage == datapath.degree() => carried("polynomial.wait_for_tail.t_delay", since - 1),
+        _ => operand(&format!("polynomial.stage[{}].multiply_add", stage + 1), "multiplicand"),
+    }
+}
+
+/// The divider's registers behind the front end's rank.
+fn in_tail(datapath: &Datapath, rank: usize, register: Register) -> String {
+    const LINE: &str = "tail.divider.divisor_stage";
+    let pipelining = datapath.pipelining();
+    let (line, operands) = (pipelining.line_ranks(), usize::from(pipelining.operands));
+    match register {
+        Register::TailA => carried("tail.a_delay", rank),
+        Register::TailB if rank == 0 => carried("tail.b_delay", 0),
+        Register::TailB => operand(LINE, "multiplicand"),
+        Register::TailX if rank == operands => operand(LINE, "variable"),
+        Register::TailX => carried("tail.divider.x_waits.x_delay", rank - 1 - operands),
+        Register::Partial(..) | Register::Product(_) | Register::Sum(_) => inside(LINE, register),
+        Register::Divisor if rank == line => format!("{LINE}.t_q"),
+        division if rank == line => format!("tail.divider.{division}_q"),
+        division => digit_stage(datapath, rank - line - 1, division),
+    }
+}
+
+fn field_number(datapath: &Datapath, register: Register) -> usize {
     let fields = datapath.rom().layout().fields();
-    let number = fields.iter().position(|field| field.name == register).unwrap_or(fields.len());
-    format!("rom.field[{number}].value")
+    fields.iter().position(|field| field.name == register).unwrap_or(fields.len())
+}
+
+/// A wire that shows a field of the ROM word, which the RTL has by its number.
+fn rom_field(datapath: &Datapath, wire: &str, register: Register) -> String {
+    format!("rom.field[{}].{wire}", field_number(datapath, register))
 }
 
 /// The registers after digit stage `step`, and where the division waits for the polynomial.

@@ -124,6 +124,7 @@ fn plain(request: &Request) -> Config {
         widths: StatedWidths::default(),
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
+        pipelining: Default::default(),
     }
 }
 

@@ -1,7 +1,6 @@
 //! Registers whose width nobody states: the last stage's result, whose last place is the output's, and the shifts,
 //! which are counts. Their integer bits follow from what they take.
 
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::Reach;
 use hw_model::design::Design;
 use hw_model::format::QFormat;
@@ -30,7 +29,7 @@ pub(super) fn witnesses(design: &Design) -> Result<Vec<Witness>, SizingError> {
     let degree = datapath.degree();
     let last = Following {
         register: Register::T(degree),
-        rank: HEAD_RANKS + degree - 1,
+        rank: datapath.rank_of(Register::T(degree)),
         format: datapath.formats().polynomial.as_ref().map(|polynomial| polynomial.last()),
         taken: datapath.polynomial_reach().map(|reach| *reach.last()),
         last_place: Breaks::OutputHasIt,

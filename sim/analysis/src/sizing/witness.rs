@@ -143,7 +143,8 @@ impl Court<'_> {
     ) -> Result<Witness, SizingError> {
         let Some(format) = format else { return Ok(silent) };
         let register = name(which);
-        let (n, x) = seen_at(design, register, &extreme, |passage| holds(which, passage, extreme.bits))?;
+        let (n, x) =
+            seen_at(design, register, &extreme, |passage| holds(design.datapath(), which, passage, extreme.bits))?;
         let breaks = Breaks::Overflow { register, bits: extreme.bits, format };
         Ok(Witness { n, x, breaks, ..silent })
     }

@@ -219,6 +219,7 @@ fn widths(
         widths: Default::default(),
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
+        pipelining: Default::default(),
     };
     let mut row = Widths {
         method,

@@ -78,7 +78,7 @@ fn formats(source: &Design, specialised: &Design) -> Vec<LeftOut> {
 }
 
 fn divider_ranks(datapath: &Datapath) -> u64 {
-    datapath.divider().map_or(0, |divider| 1 + u64::from(divider.digit_stages()))
+    datapath.divider_ranks() as u64
 }
 
 fn compares(datapath: &Datapath) -> u64 {

@@ -1,7 +1,6 @@
 //! Mutants that are other lines of the RTL: the fault model, written into the sources.
 
 use hw_model::datapath::Datapath;
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::format::QFormat;
 use hw_model::registers::Register;
 use hw_model::rounding::Rounding;
@@ -92,10 +91,10 @@ fn register(datapath: &Datapath, rank: usize, register: Register, defect: Defect
         }
         Register::T(_) => ("blysk.sv", ".t_i(", "t_waited", ")"),
         Register::TailX => ("blysk_front_end.sv", "assign tail_x_o = ", "tail_x_q", ";"),
-        Register::Remainder if rank == HEAD_RANKS => {
+        Register::Remainder if rank == datapath.rank_of(register) => {
             ("blysk_tail.sv", "assign remainder[DIVISOR_WIDTH-1:0] = ", "remainder_q", ";")
         }
-        Register::Digits if rank == HEAD_RANKS => {
+        Register::Digits if rank == datapath.rank_of(register) => {
             ("blysk_tail.sv", "assign digits[DIGITS_WIDTH-1:0] = ", "digits_q", ";")
         }
         Register::Intensity => ("blysk_clamp.sv", "assign intensity_o = ", "intensity_q", ";"),

@@ -1,7 +1,6 @@
 //! What the model knows of the registers: the least and the greatest value each of them takes.
 
 use hw_model::datapath::Datapath;
-use hw_model::datapath::HEAD_RANKS;
 use hw_model::datapath::reach::{PolynomialReach, Reach, TailReach};
 use hw_model::registers::Register;
 use vectors::rtl::probes;
@@ -27,10 +26,11 @@ pub struct Fact {
 pub fn facts(datapath: &Datapath) -> Vec<Fact> {
     let (polynomial, tail) = (datapath.polynomial_reach(), datapath.tail_reach());
     let digit_stages = datapath.divider().map_or(0, |divider| divider.digit_stages() as usize);
+    let divided = datapath.rank_of(Register::Divisor);
     let known = probes::probes(datapath).into_iter().filter_map(|probe| {
         let reach = match probe.register.register {
-            Register::Remainder if probe.rank != HEAD_RANKS => None,
-            Register::Digits if probe.rank < HEAD_RANKS + digit_stages => None,
+            Register::Remainder if probe.rank != divided => None,
+            Register::Digits if probe.rank < divided + digit_stages => None,
             register => of_polynomial(polynomial.as_ref(), register).or(of_tail(tail.as_ref(), register)),
         }?;
         Some(Fact {
