@@ -73,7 +73,8 @@ def test_arrays_keep_their_shape_and_are_broadcast(compact):
     every = compact.evaluate(np.arange(256), 8304722)
     assert every[0].shape == (256,)
     assert every[0][63] == 17228
-    assert compact.evaluate([], [])[0].shape == (0,)
+    none = np.array([], np.int64)
+    assert compact.evaluate(none, none)[0].shape == (0,)
     assert compact.highlight(np.array([1.0, 64.0])[:, None], [0.5, 0.99, 1.0]).shape == (2, 3)
 
 
