@@ -2,7 +2,7 @@
 
 use hw_model::datapath::front_end::Region;
 use hw_model::datapath::reach::{PolynomialReach, Reach, TailReach};
-use hw_model::datapath::{Datapath, RankRegister};
+use hw_model::datapath::{Datapath, RankRegister, Status};
 use hw_model::registers::Register;
 
 /// Bits that are always the same.
@@ -63,6 +63,9 @@ impl<'a> Known<'a> {
             Register::T(stage) => Some(within(self.polynomial.as_ref()?.lines.get(stage - 1)?, word)),
             Register::TailX => Some(within(&self.tail.as_ref()?.x, word)),
             Register::Divisor => Some(within(&self.tail.as_ref()?.divisor, word)),
+            Register::Remainder if Some(rank) == first_rank(datapath, register) => {
+                Some(within(&self.tail.as_ref()?.first_remainder, word))
+            }
             Register::Remainder => {
                 let greatest = self.tail.as_ref()?.divisor.greatest.bits - 1;
                 let reason = format!("a remainder is 0 to {greatest}, less than the greatest divisor");
@@ -73,10 +76,52 @@ impl<'a> Known<'a> {
                 Some(between(0, greatest, word, format!("an intensity is 0 to {greatest}")))
             }
             Register::Region => Some(of_regions(datapath)),
-            // Dividend and quotient bits share the digits; x is whatever is asked; a status has only flags that can be.
-            Register::Digits | Register::X | Register::Status => None,
+            Register::Digits => self.digits(rank, word),
+            Register::Status => Some(self.flags(rank)),
+            // x is whatever is asked.
+            Register::X => None,
         }
     }
+
+    /// Dividend and quotient bits share a register. The dividend is x, moved up: the bits that come in below it are 0,
+    /// and go up as quotient bits come in below them.
+    fn digits(&self, rank: usize, word: &dyn Fn(i64) -> u64) -> Option<Fixed> {
+        let divider = self.datapath.divider()?;
+        let steps = (rank - first_rank(self.datapath, Register::Digits)?) as u32;
+        let found = (steps * divider.digits_per_stage).min(u64::BITS - 1);
+        let zeros = (1_u64 << divider.dividend_up.min(u64::BITS - 1)) - 1;
+        if steps >= divider.digit_stages() {
+            return Some(within(&self.tail.as_ref()?.quotient, word));
+        }
+        Some(Fixed { mask: zeros << found, value: 0, reason: "the dividend has zeros there".to_owned() })
+    }
+
+    /// Flags that are never set in this rank.
+    fn flags(&self, rank: usize) -> Fixed {
+        let datapath = self.datapath;
+        let (input, one) = (datapath.formats().input, datapath.output_one());
+        let last = rank + 1 == datapath.rank_count();
+        let front_end = first_rank(datapath, Register::Region).is_some_and(|first| rank >= first) || last;
+        let clamps = self.polynomial.as_ref().map_or(datapath.degree() > 0, |polynomial| {
+            polynomial.last().least.bits < 0 || polynomial.last().greatest.bits > one
+        });
+        let can = |flag: Status| match flag {
+            Status::NO_WORD => true,
+            Status::ABOVE_ONE => front_end && input.max_bits() > datapath.front_end().greatest,
+            Status::FACING_AWAY => front_end && input.is_signed(),
+            Status::CLAMPED => last && clamps,
+            _ => front_end,
+        };
+        let never = datapath.status_flags().iter().filter(|(flag, _)| !can(*flag));
+        let names: Vec<&str> = never.clone().map(|(_, name)| *name).collect();
+        let mask = never.fold(0, |mask, (flag, _)| mask | u64::from(flag.bits()));
+        Fixed { mask, value: 0, reason: format!("never set here: {}", names.join(", ")) }
+    }
+}
+
+/// The first rank that has a register.
+fn first_rank(datapath: &Datapath, register: Register) -> Option<usize> {
+    (0..datapath.rank_count()).find(|&rank| datapath.registers(rank).iter().any(|held| held.register == register))
 }
 
 /// Bits that are the same in every word of the ROM.

@@ -22,7 +22,8 @@ pub(super) fn run(datapath: &Datapath, samples: &[Sample], seed: u64, mut observ
         let drawn = dice.below(4);
         let (stall, bubble) = (mode & 1 == 1 && drawn & 1 == 1, mode & 2 == 2 && drawn & 2 == 2);
         cycle += 1;
-        let request = if bubble { None } else { Some(waiting.next()?) };
+        // Requests that wait would fill the bubbles after them: none comes while results are stalled.
+        let request = if bubble || stall { None } else { Some(waiting.next()?) };
         let request = request.map(|sample| (sample.case.address, sample.case.x));
         Some(Ok::<_, Infallible>(StimulusCycle { request, ready: !stall, reset: false }))
     });
