@@ -152,7 +152,8 @@ ALL = [
         ],
     ),
     Property(
-        "division, 12 bits", "blysk_tail", ["blysk_round_shift", "blysk_delay", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
+        "division, 12 bits", "blysk_tail",
+        ["blysk_round_shift", "blysk_delay", "blysk_stage", "blysk_tail_digits", "blysk_tail"],
         ["trail.sv", "tail.svh"], inside="blysk_tail", needs="HAS_TAIL", bits=12,
         bugs=[Bug("digits not moved up", "blysk_tail_digits.sv", "(digits_d << 1) |", "digits_d |")],
     ),

@@ -206,15 +206,14 @@ module blysk_front_end (
 
     if (CENTRED != 0) begin : centred
       localparam int U_WIDTH = V_WIDTH + U_DROP + 2;
-      logic        [S_WIDTH-1:0]            start, distance, s;
+      logic        [S_WIDTH-1:0]            distance, s;
       logic        [SHIFT_COMMON_WIDTH-1:0] shift;
       logic signed [U_WIDTH-1:0]            u;
-      assign start = segment[SEGMENTS-1].start;
       assign shift = segment[SEGMENTS-1].shift;
       if (MEASURED != 0) begin : measured
         assign distance = segment[SEGMENTS-1].distance.choice;
       end else begin : not_measured
-        assign distance = start - S_WIDTH'(x_chosen);
+        assign distance = segment[SEGMENTS-1].start - S_WIDTH'(x_chosen);
       end
       assign s = region == REGION_POLYNOMIAL ? distance : '0;
       assign u = (U_WIDTH'(s) << U_UP) << shift;
@@ -275,7 +274,7 @@ module blysk_front_end (
 
   // The fields that other ranks read, and what a form does not have.
   logic unused;
-  assign unused = &{1'b0, word_i, fields_i, x_chosen, segment[SEGMENTS-1].start, segment[SEGMENTS-1].shift};
+  assign unused = &{1'b0, word_i, fields_i, x_chosen, below, segment[SEGMENTS-1].start, segment[SEGMENTS-1].shift};
 
 endmodule
 

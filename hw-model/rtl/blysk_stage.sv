@@ -87,10 +87,12 @@ module blysk_stage #(
     localparam int PIECE   = blysk_pkg::PRODUCT_PIECE;
     localparam int UPPERS  = MULTIPLICAND_WIDTH > PIECE ? 2 : 1;
     localparam int COLUMNS = VARIABLE_WIDTH > PIECE ? 2 : 1;
-    // The sum of the products so far, one below the other.
-    logic [(UPPERS*COLUMNS+1)*WHOLE-1:0] sums;
-    assign sums[WHOLE-1:0] = '0;
-    assign product_d = sums[UPPERS*COLUMNS*WHOLE+:WHOLE];
+    // The products at their places, side by side.
+    logic [UPPERS*COLUMNS*WHOLE-1:0] placed;
+    always_comb begin
+      product_d = '0;
+      for (int part = 0; part < UPPERS * COLUMNS; part++) product_d = product_d + placed[part*WHOLE+:WHOLE];
+    end
     genvar m, v;
     for (m = 0; m < UPPERS; m = m + 1) begin : upper
       localparam int M_WIDTH  = m + 1 < UPPERS ? PIECE : MULTIPLICAND_WIDTH - m * PIECE;
@@ -102,7 +104,6 @@ module blysk_stage #(
         logic [M_WIDTH-1:0] of_multiplicand;
         logic [V_WIDTH-1:0] of_variable;
         logic [WIDTH-1:0]   part_d, part_q;
-        logic [WHOLE-1:0]   placed;
         assign of_multiplicand = multiplicand[m*PIECE+:M_WIDTH];
         assign of_variable     = variable[v*PIECE+:V_WIDTH];
         always_ff @(posedge clk_i) begin
@@ -110,15 +111,14 @@ module blysk_stage #(
         end
         if (M_SIGNED != 0) begin : signed_part
           assign part_d = $signed(of_multiplicand) * $signed({1'b0, of_variable});
-          assign placed = WHOLE'($signed(part_q)) << ((m + v) * PIECE);
+          assign placed[NUMBER*WHOLE+:WHOLE] = WHOLE'($signed(part_q)) << ((m + v) * PIECE);
         end else if (M_WIDTH == 1) begin : one_bit_part
           assign part_d = of_multiplicand[0] ? WIDTH'(of_variable) : '0;
-          assign placed = WHOLE'(part_q) << ((m + v) * PIECE);
+          assign placed[NUMBER*WHOLE+:WHOLE] = WHOLE'(part_q) << ((m + v) * PIECE);
         end else begin : unsigned_part
           assign part_d = of_multiplicand * of_variable;
-          assign placed = WHOLE'(part_q) << ((m + v) * PIECE);
+          assign placed[NUMBER*WHOLE+:WHOLE] = WHOLE'(part_q) << ((m + v) * PIECE);
         end
-        assign sums[(NUMBER+1)*WHOLE+:WHOLE] = sums[NUMBER*WHOLE+:WHOLE] + placed;
       end
     end
     logic unused;

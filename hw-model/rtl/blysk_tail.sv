@@ -14,7 +14,8 @@
 
 module blysk_tail (
   input  logic                                 clk_i,
-  input  logic [blysk_pkg::OPERAND_RANKS+blysk_pkg::PRODUCT_RANKS+blysk_pkg::SUM_RANKS+blysk_pkg::DIGIT_STAGES:0] load_i,
+  input  logic [blysk_pkg::OPERAND_RANKS+blysk_pkg::PRODUCT_RANKS+blysk_pkg::SUM_RANKS
+                +blysk_pkg::DIGIT_STAGES:0]    load_i,
   input  logic [blysk_pkg::X_WIDTH-1:0]        x_i,
   input  logic [blysk_pkg::TAIL_A_WIDTH-1:0]   a_i,
   input  logic [blysk_pkg::TAIL_B_WIDTH-1:0]   b_i,
