@@ -172,7 +172,7 @@ fn c_program(tools: &Tools, place: &Path) -> std::path::PathBuf {
     let mut cc = Command::new("cc");
     cc.args(["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", "-o"]).arg(&program);
     cc.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden_model/answers.c"));
-    passes(cc.args(tools.pkg_config(&["--cflags", "--static", "--libs"])).output(), "cc");
+    passes(cc.args(tools.linked()).output(), "cc");
     program
 }
 
@@ -183,7 +183,7 @@ fn dpi_program(tools: &Tools, place: &Path) -> std::path::PathBuf {
     verilator.args(["-CFLAGS", "-fcoroutines -O1", "-MAKEFLAGS", "CFG_CXXFLAGS_PCH_I=-include", "-o", "answers"]);
     verilator.arg(tools.dpi("blysk_dpi_pkg.sv"));
     verilator.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden_model/answers.sv"));
-    let libraries = tools.pkg_config(&["--static", "--libs"]).join(" ");
+    let libraries = tools.linked().join(" ");
     passes(verilator.args(["-LDFLAGS", &libraries]).output(), "verilator");
     build.join("answers")
 }

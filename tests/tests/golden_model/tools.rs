@@ -72,11 +72,13 @@ impl Tools {
         self.library.join("share/blysk/dpi").join(name)
     }
 
-    /// What `pkg-config` says of the library.
-    pub fn pkg_config(&self, words: &[&str]) -> Vec<String> {
+    /// What a compiler and a linker are told of the library, and where the loader finds it.
+    pub fn linked(&self) -> Vec<String> {
         let mut command = Command::new("pkg-config");
-        let said = command.args(words).arg("blysk").env("PKG_CONFIG_PATH", self.library.join("lib/pkgconfig")).output();
-        passes(said, "pkg-config").split_whitespace().map(str::to_owned).collect()
+        command.args(["--cflags", "--libs", "blysk"]).env("PKG_CONFIG_PATH", self.library.join("lib/pkgconfig"));
+        let said = passes(command.output(), "pkg-config");
+        let rpath = format!("-Wl,-rpath,{}", self.library.join("lib").display());
+        said.split_whitespace().map(str::to_owned).chain([rpath]).collect()
     }
 
     /// The environment of a reader who has installed everything: the command, the Python package, the C library, the
