@@ -3,41 +3,52 @@
 //!
 //! - samples and cycles a second through the C ABI (`bench.c`), beside the same calls in Rust;
 //! - the emitted RTL in Verilator for 10⁶ random cycles, without a checker, with the ports judged, and with every
-//!   register judged too. The fastest of three rounds counts.
+//!   register judged too.
+//!
+//! What counts is processor time, as others may use the machine too. Those that are compared take turns, and of seven
+//! turns the fastest counts.
 
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 use std::hint::black_box;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::time::{Duration, Instant};
 
 use model::{Addresses, Clocked, Inputs, Model};
+use rustix::time::{ClockId, clock_gettime};
 use support::rtl::{emit, newer_verilator, verilate};
-use support::{SYSTEM, package, passes, static_library};
+use support::{SYSTEM, package, passes, run, static_library};
 use vectors::rtl::REGISTER_CHECKER;
 
 const PRESET: &str = "compact";
 const SAMPLES: usize = 1 << 16;
 const CYCLES: u32 = 1_000_000;
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 7;
 
-fn fastest(mut work: impl FnMut()) -> Duration {
-    let time = |_| {
-        let start = Instant::now();
-        work();
-        start.elapsed()
-    };
-    (0..ROUNDS).map(time).min().expect("there are rounds")
+/// Seconds of the processor that this thread has had.
+fn processor_time() -> f64 {
+    let time = clock_gettime(ClockId::ThreadCPUTime);
+    time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
-/// Samples a second of arrays with one address, and nanoseconds of a clocked cycle, in Rust.
-fn rust() -> (f64, f64) {
+/// The least time of each of several measurements that take turns.
+fn fastest<const N: usize>(mut measure: impl FnMut() -> [f64; N]) -> [f64; N] {
+    (0..ROUNDS).map(|_| measure()).fold([f64::INFINITY; N], |least, now| std::array::from_fn(|i| least[i].min(now[i])))
+}
+
+fn seconds(work: impl FnOnce()) -> f64 {
+    let start = processor_time();
+    work();
+    processor_time() - start
+}
+
+/// Nanoseconds of a sample of arrays with one address, and of a clocked cycle, in Rust.
+fn rust() -> [f64; 2] {
     let model = Model::preset(PRESET).expect("a preset");
     let xs: Vec<i64> = (0..SAMPLES as i64).map(|i| i * 127 % (1 << 23)).collect();
     let (mut intensities, mut status) = (vec![0; SAMPLES], vec![0; SAMPLES]);
-    let arrays = fastest(|| {
+    let arrays = seconds(|| {
         for _ in 0..100 {
             let done = model.evaluate_all(Addresses::One(63), &xs, &mut intensities, &mut status);
             done.expect("x fits");
@@ -45,37 +56,43 @@ fn rust() -> (f64, f64) {
         }
     });
     let mut pipeline = Clocked::new(&model);
-    let cycles = fastest(|| {
+    let cycles = seconds(|| {
         for cycle in 0..CYCLES {
             let x = i64::from(cycle) * 127 % (1 << 23);
             let inputs = Inputs { in_valid: true, out_ready: true, address: cycle % 256, x, ..Inputs::default() };
             black_box(pipeline.tick(&inputs).expect("x fits"));
         }
     });
-    let nanoseconds = cycles.as_secs_f64() * 1e9 / f64::from(CYCLES);
-    (100.0 * SAMPLES as f64 / arrays.as_secs_f64(), nanoseconds)
+    [arrays * 1e7 / SAMPLES as f64, cycles * 1e9 / f64::from(CYCLES)]
 }
 
-/// The same through the C ABI, as `bench.c` measures it.
-fn c() -> (f64, f64) {
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bench");
+/// `bench.c`, compiled.
+fn bench_c() -> PathBuf {
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bench_c");
     let source = package().join("benches/bench.c");
     let mut compiler = Command::new("cc");
     compiler.args(["-std=c11", "-O2", "-Wall", "-Wextra", "-Werror", "-I"]).arg(package().join("include"));
     passes(compiler.arg(source).arg(static_library()).args(SYSTEM).arg("-o").arg(&program));
-    let said = passes(&mut Command::new(program));
-    let mut numbers = said.split_whitespace().filter_map(|word| word.parse::<f64>().ok());
-    (numbers.next().expect("samples a second"), numbers.next().expect("nanoseconds"))
+    program
 }
 
-/// Seconds of a simulation, the fastest round.
-fn seconds(program: &Path, directory: &Path, checked: bool) -> f64 {
-    let time = fastest(|| {
-        let mut command = Command::new(program);
-        let said = passes(command.arg(format!("+cycles={CYCLES}")).current_dir(directory));
-        assert_eq!(said.lines().any(|line| line.starts_with("PASS ")), checked, "{said}");
-    });
-    time.as_secs_f64()
+/// The same two figures through the C ABI.
+fn c(program: &Path) -> [f64; 2] {
+    let said = passes(&mut Command::new(program));
+    let mut numbers = said.split_whitespace().filter_map(|word| word.parse().ok());
+    std::array::from_fn(|_| numbers.next().expect("a number"))
+}
+
+/// Seconds that a simulation takes: what the shell says of its user time.
+fn simulated(program: &Path, directory: &Path, checked: bool) -> f64 {
+    let mut shell = Command::new("bash");
+    shell.arg("-c").arg(format!("TIMEFORMAT='seconds %3U'; time \"$0\" +cycles={CYCLES}")).arg(program);
+    let output = run(shell.current_dir(directory));
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert_eq!(said.lines().any(|line| line.starts_with("PASS ")), checked, "{said}");
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    let time = errors.lines().find_map(|line| line.strip_prefix("seconds ")?.parse().ok());
+    time.unwrap_or_else(|| panic!("no time: {errors}"))
 }
 
 fn main() {
@@ -83,20 +100,19 @@ fn main() {
     if !std::env::args().any(|argument| argument == "--bench") {
         return;
     }
-    let ((rust_samples, rust_cycle), (c_samples, c_cycle)) = (rust(), c());
-    println!(
-        "arrays, preset {PRESET}, one address: Rust {:.1} M samples/s, C {:.1} M samples/s ({:.2} of Rust)",
-        rust_samples / 1e6,
-        c_samples / 1e6,
-        c_samples / rust_samples
-    );
-    println!(
-        "clocked, nothing stalls: Rust {rust_cycle:.1} ns a cycle, C {c_cycle:.1} ns a cycle ({:.2} times Rust)",
-        c_cycle / rust_cycle
-    );
+    let program = bench_c();
+    let [rust_sample, rust_cycle, c_sample, c_cycle] = fastest(|| {
+        let ([a, b], [c, d]) = (rust(), c(&program));
+        [a, b, c, d]
+    });
+    let [rust_rate, c_rate] = [rust_sample, c_sample].map(|nanoseconds| 1e3 / nanoseconds);
+    println!("arrays, preset {PRESET}, one address: Rust {rust_rate:.1} M samples/s, C {c_rate:.1} M samples/s");
+    println!("  C has {:.2} of Rust's", c_rate / rust_rate);
+    println!("clocked, nothing stalls: Rust {rust_cycle:.1} ns a cycle, C {c_cycle:.1} ns a cycle");
+    println!("  C takes {:.2} times Rust's", c_cycle / rust_cycle);
 
     let home = newer_verilator();
-    let directory = emit(PRESET, "bench");
+    let directory = emit(PRESET, "dpi_bench");
     let build = |name: &str, flags: &[&str], more: &[&str]| {
         let place = directory.join(name);
         std::fs::create_dir_all(&place).expect("a directory");
@@ -107,8 +123,10 @@ fn main() {
     let bare = build("bare", &["-DUNCHECKED"], &[]);
     let ports = build("ports", &[], &[]);
     let registers = build("registers", &["-DUNCHECKED"], &[REGISTER_CHECKER]);
-    let bare = seconds(&bare, &directory, false);
-    let [ports, registers] = [ports, registers].map(|program| seconds(&program, &directory, true));
+    let [bare, ports, registers] = fastest(|| {
+        [(&bare, false), (&ports, true), (&registers, true)]
+            .map(|(program, checked)| simulated(program, &directory, checked))
+    });
     println!("Verilator, {CYCLES} cycles: {bare:.3} s without a checker");
     for (what, time) in [("ports", ports), ("ports and registers", registers)] {
         let cost = (time - bare) * 1e9 / f64::from(CYCLES);

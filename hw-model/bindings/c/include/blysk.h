@@ -373,8 +373,8 @@ blysk_code blysk_dpi_cycle(blysk_scoreboard *scoreboard,
 // What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: of `count` in all, in the order of
 // `blysk_registers`, the 16 from `first` on, or as many as are left.
 //
-// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of z
-// and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
+// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of
+// z and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
 blysk_code blysk_dpi_registers(blysk_scoreboard *scoreboard,
                                uint32_t count,
                                uint32_t first,

@@ -93,8 +93,8 @@ const TOGETHER: usize = 16;
 /// What the DUT's registers hold at the edge that the next `blysk_dpi_cycle` judges: of `count` in all, in the order of
 /// `blysk_registers`, the 16 from `first` on, or as many as are left.
 ///
-/// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of z
-/// and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
+/// `words` has 64 bits of a `logic` vector for each, the first register lowest: two pairs of 32 values and 32 marks of
+/// z and x, as `svLogicVecVal` has them. Registers that no call tells are unknown.
 #[unsafe(no_mangle)]
 pub extern "C" fn blysk_dpi_registers(
     scoreboard: Option<&mut Scoreboard>,

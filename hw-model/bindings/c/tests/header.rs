@@ -1,9 +1,10 @@
-//! `include/blysk.h` is what cbindgen makes of the sources. With `BLYSK_HEADER=write` it is written anew: `make header`.
+//! `include/blysk.h` is what cbindgen makes of the sources. With `BLYSK_HEADER=write` it is written anew:
+//! `make header`.
 
 use std::path::Path;
 
-/// Puts pointers in the place of the names that the wrappers of `pointers.rs` have: a reader of the header must not look
-/// up that `In_i64` is `const int64_t *`.
+/// Puts pointers in the place of the names that the wrappers of `pointers.rs` have: a reader of the header must not
+/// look up that `In_i64` is `const int64_t *`.
 fn with_plain_pointers(header: &str) -> String {
     let wrapper = |line: &&str| line.starts_with("typedef ") && line.contains('*') && line.ends_with(';');
     let mut plain = header.to_owned();
