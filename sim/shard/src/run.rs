@@ -56,6 +56,11 @@ pub fn run(
     let begun = believed(&checkpoint).filter(|found| found.pieces().start == pieces.start);
     let begun = begun.filter(|found| found.pieces().end <= pieces.end);
     kind.ready()?;
+    // Shards that begin together all make the directories: whoever comes second finds them there.
+    for path in [&result, &checkpoint] {
+        let directory = path.parent().unwrap_or(path);
+        fs::create_dir_all(directory).map_err(|cause| ShardError::Io { path: directory.to_owned(), cause })?;
+    }
     // Before the work, so that a place where nothing can be written is found at once.
     let file = WholeFile::create(&result)?;
     let mut shard = Shard::new(plan, kind, pieces.clone(), begun);

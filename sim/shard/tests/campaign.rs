@@ -91,6 +91,20 @@ fn a_shard_goes_on_from_its_checkpoint_to_the_same_bytes() {
     }
 }
 
+/// Shards that begin together make the same directories, and none of them fails by it.
+#[test]
+fn shards_may_begin_at_the_same_time() {
+    for _ in 0..10 {
+        let (directory, _) = planned(20);
+        std::thread::scope(|scope| {
+            for index in 0..4 {
+                let directory = directory.path();
+                scope.spawn(move || measured(directory, index));
+            }
+        });
+    }
+}
+
 #[test]
 fn gaps_and_doubles_are_refused() {
     let (directory, _) = planned(3);
