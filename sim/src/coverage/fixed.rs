@@ -78,8 +78,13 @@ impl<'a> Known<'a> {
             Register::Region => Some(of_regions(datapath)),
             Register::Digits => self.digits(rank, word),
             Register::Status => Some(self.flags(rank)),
-            // x is whatever is asked.
-            Register::X => None,
+            // x is whatever is asked. What stands in the ranks inside a line has no reach of its own yet.
+            Register::X
+            | Register::Distance(_)
+            | Register::Beyond
+            | Register::Partial(..)
+            | Register::Product(_)
+            | Register::Sum(_) => None,
         }
     }
 
