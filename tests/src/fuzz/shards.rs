@@ -22,7 +22,9 @@ use super::{Outcome, Place};
 const MOST: usize = 16;
 
 /// A place where no program is.
-const NOWHERE: place::Place<'_> = place::Place(Path::new("/nowhere"));
+fn nowhere() -> place::Place<'static> {
+    place::Place(Path::new("/nowhere"))
+}
 
 /// A job: read, written and read again, and planned where that is little work.
 pub fn job(bytes: &[u8], _: &Place) -> Outcome {
@@ -33,7 +35,7 @@ pub fn job(bytes: &[u8], _: &Place) -> Outcome {
     assert_eq!(again.ok().as_ref(), Some(&job), "what was written is read again");
     assert_eq!(job.digest().len(), 64);
     if is_little(&job)
-        && let Ok(plan) = Plan::new(job, 1, NOWHERE)
+        && let Ok(plan) = Plan::new(job, 1, nowhere())
     {
         assert_eq!(plan.pieces_of(0).expect("one shard"), 0..plan.pieces());
         assert!(plan.pieces_of(1).is_err());
@@ -68,7 +70,7 @@ pub fn plan(bytes: &[u8], _: &Place) -> Outcome {
         if !is_little(read.job()) {
             continue;
         }
-        if let Ok((plan, kind)) = Plan::parse(&text, NOWHERE) {
+        if let Ok((plan, kind)) = Plan::parse(&text, nowhere()) {
             let mut next = 0;
             for index in 0..plan.shards() {
                 let pieces = plan.pieces_of(index).expect("a shard of the plan");
@@ -88,7 +90,7 @@ fn plans() -> &'static [(Plan, Box<dyn Kind>)] {
     PLANS.get_or_init(|| {
         let plans = super::Target::find("plan").expect("a target").corpus();
         let texts = plans.into_iter().filter_map(|bytes| String::from_utf8(bytes).ok());
-        texts.filter_map(|text| Plan::parse(&text, NOWHERE).ok()).collect()
+        texts.filter_map(|text| Plan::parse(&text, nowhere()).ok()).collect()
     })
 }
 

@@ -1,6 +1,6 @@
 //! What drives the clocked pipeline over many cycles: a value for each cycle, or one for all.
 
-use numpy::{PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::arrays::{Whole, converted, in_place};

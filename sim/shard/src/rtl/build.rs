@@ -5,7 +5,7 @@ use std::process::Command;
 
 use hw_model::design::Design;
 use hw_model::rtl::SOURCES;
-use vectors::rtl::{self, Modules, PACKAGE};
+use vectors::rtl::{self, Emission, PACKAGE};
 use vectors::{Bundle, OutputSet, Strategy, WholeFile};
 
 use super::error::RtlError;
@@ -24,7 +24,7 @@ pub fn emit(design: &Design, directory: &Path, command: &str) -> Result<(), RtlE
     // Its vectors are for whoever wants to look into a difference.
     let bundle = Bundle::new(design, Strategy::Corners, 16, 1, command)?;
     let mut set = OutputSet::create(directory)?;
-    rtl::stage(&bundle, &Modules::default(), command, &mut set)?;
+    rtl::stage(&bundle, &Emission::default(), command, &mut set)?;
     set.commit()?;
     Ok(())
 }
