@@ -79,12 +79,11 @@ pub enum Fault {
 /// True for the registers of the data path that hold numbers: what has a defect shows in them.
 #[must_use]
 pub const fn is_data(register: Register) -> bool {
-    match register {
-        Register::V | Register::T(_) | Register::Intensity => true,
-        Register::TailX | Register::Divisor | Register::Remainder | Register::Digits => true,
-        Register::Partial(..) | Register::Product(_) | Register::Sum(_) | Register::Distance(_) => true,
-        _ => false,
-    }
+    use Register::{Digits, Distance, Divisor, Intensity, Partial, Product, Remainder, Sum, T, TailX, V};
+    matches!(
+        register,
+        V | T(_) | Distance(_) | Partial(..) | Product(_) | Sum(_) | TailX | Divisor | Remainder | Digits | Intensity
+    )
 }
 
 /// The place of a register that [`is_data`] in what a rank holds; none of another one.

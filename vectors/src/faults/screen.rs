@@ -94,11 +94,8 @@ impl Screen {
 
 /// True for the registers of the least pipeline, which the block engine has; the output's is judged one by one.
 const fn keeps_in_blocks(register: Register) -> bool {
-    match register {
-        Register::V | Register::T(_) => true,
-        Register::TailX | Register::Divisor | Register::Remainder | Register::Digits => true,
-        _ => false,
-    }
+    use Register::{Digits, Divisor, Remainder, T, TailX, V};
+    matches!(register, V | T(_) | TailX | Divisor | Remainder | Digits)
 }
 
 fn damage(faulty: &Faulty<'_>, rank: usize, register: Register, defect: Defect) -> Option<Damage> {
