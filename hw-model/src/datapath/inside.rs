@@ -5,7 +5,6 @@
 //! have a lower and an upper piece, m = m₀ + m₁·2^18 and v = v₀ + v₁·2^18, and their product is
 //! m₀v₀ + (m₀v₁ + m₁v₀)·2^18 + m₁v₁·2^36. Lower pieces have no sign; the upper one of a signed multiplicand has its.
 
-use crate::config::ConfigError;
 use crate::format::{FormatError, QFormat};
 use crate::pipelining::{LineStep, PIECE};
 use crate::registers::Register;
@@ -179,10 +178,9 @@ impl Datapath {
     }
 
     /// Refuses a rank of registers that would be wider than a register can be.
-    pub(crate) fn check_pipelining(&self) -> Result<(), ConfigError> {
-        let refuse = |problem| Err(ConfigError::Field { field: "pipelining", problem });
+    pub(crate) fn check_pipelining(&self) -> Result<(), String> {
         if self.pipelining.front_end > 0 && self.distance_format(self.segment_count() - 1).is_none() {
-            return refuse("hand-over − x would need more than 63 bits: leave \"front_end\" out".to_owned());
+            return Err("hand-over − x would need more than 63 bits: leave \"front_end\" out".to_owned());
         }
         let lines = (1..=self.degree()).chain(self.divider.map(|_| 0));
         let kept = lines.flat_map(|line| {
@@ -191,7 +189,7 @@ impl Datapath {
         });
         for (register, field) in kept {
             if self.line_format(register).is_none() {
-                return refuse(format!(
+                return Err(format!(
                     "the register {register} would need more than 63 bits: leave \"{field}\" out, or state \
                      narrower formats (widths, multiplier_operand_bits)"
                 ));

@@ -25,17 +25,9 @@ pub const FRONT_END: &str = "front_end";
 /// of ranks up to the front end's.
 #[must_use]
 pub fn register_name(head: usize, rank: usize, rank_name: &str, register: &str) -> String {
-    let of_divider = matches!(
-        Register::named(register),
-        Some(
-            Register::Divisor
-                | Register::Remainder
-                | Register::Digits
-                | Register::Product(0)
-                | Register::Sum(0)
-                | Register::Partial(0, _)
-        )
-    );
+    use Register::{Digits, Divisor, Partial, Product, Remainder, Sum};
+    let of_divider =
+        matches!(Register::named(register), Some(Divisor | Remainder | Digits | Partial(0, _) | Product(0) | Sum(0)));
     match rank.checked_sub(head) {
         Some(index) if of_divider => format!("tail{index}.{register}"),
         _ => format!("{rank_name}.{register}"),

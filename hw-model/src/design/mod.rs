@@ -89,7 +89,8 @@ impl Design {
             pipelining: config.pipelining,
             narrow,
         };
-        datapath.check_pipelining()?;
+        let refused = |problem| ConfigError::Field { field: "pipelining", problem };
+        datapath.check_pipelining().map_err(refused)?;
         doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }

@@ -82,7 +82,7 @@ pub const fn is_data(register: Register) -> bool {
     use Register::{Digits, Distance, Divisor, Intensity, Partial, Product, Remainder, Sum, T, TailX, V};
     matches!(
         register,
-        V | T(_) | Intensity | TailX | Divisor | Remainder | Digits | Partial(..) | Product(_) | Sum(_) | Distance(_)
+        V | T(_) | Distance(_) | Partial(..) | Product(_) | Sum(_) | TailX | Divisor | Remainder | Digits | Intensity
     )
 }
 
