@@ -158,7 +158,7 @@ fn an_image_is_one_file_of_the_whole_rom() {
     // Eight segments of degree 4 with wide coefficients: more than a record of Intel HEX holds.
     bench.write(
         "wide.json",
-        r#"{"name": "wide", "method": "minimax", "degree": 4, "segments": 8, "exponents": "1,2", "input": "UQ1.50",
+        r#"{"name": "wide", "method": "minimax", "degree": 4, "segments": 8, "exponents": "7.5,40", "input": "UQ1.44",
             "output": "UQ1.40", "cut": "balanced"}"#,
     );
     bench.refused("rom --config wide.json --format hex", &["255", "mem, mif or coe"]);
