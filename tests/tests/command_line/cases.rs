@@ -91,7 +91,7 @@ fn the_testbench_takes_the_list() {
 #[test]
 fn a_list_with_a_mistake() {
     let bench = bench!();
-    let mut refused = |list: &str, more: &str, said: &[&str]| {
+    let refused = |list: &str, more: &str, said: &[&str]| {
         bench.write("list", list);
         bench.refused(&format!("vectors --config small.json --cases list {more} --out new"), said);
         bench.refused(&format!("rtl --config small.json --cases list {more} --out new"), said);

@@ -158,7 +158,7 @@ fn the_assumption_that_fails_is_named() {
 #[test]
 fn a_map_with_a_mistake() {
     let bench = bench!();
-    let mut refused = |map: &str, said: &[&str]| {
+    let refused = |map: &str, said: &[&str]| {
         bench.write("map.json", map);
         let command = "rtl --config small.json --out new --dut mine --ports map.json";
         let said: Vec<&str> = said.iter().copied().chain(["map.json"]).collect();
