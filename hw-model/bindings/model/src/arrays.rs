@@ -26,6 +26,25 @@ pub enum Addresses<'a, A = u32> {
     Each(&'a [A]),
 }
 
+/// Integers in which x can be given.
+pub trait XBits: Copy + TryInto<i64> {
+    /// The same values where they lie, if they are what the data path takes; others are converted, chunk by chunk.
+    #[must_use]
+    fn in_place(_: &[Self]) -> Option<&[i64]> {
+        None
+    }
+}
+
+impl XBits for i64 {
+    fn in_place(xs: &[Self]) -> Option<&[i64]> {
+        Some(xs)
+    }
+}
+
+impl XBits for i32 {}
+impl XBits for u32 {}
+impl XBits for u64 {}
+
 fn length(what: &'static str, got: usize, wanted: usize) -> Result<(), Error> {
     if got == wanted { Ok(()) } else { Err(Error::Length { what, got, wanted }) }
 }
@@ -49,7 +68,7 @@ impl Model {
     ) -> Result<(), Error>
     where
         A: Copy + TryInto<u32>,
-        X: Copy + TryInto<i64>,
+        X: XBits,
     {
         length("intensity", intensities.len(), xs.len())?;
         length("status", status.len(), xs.len())?;
@@ -66,7 +85,7 @@ impl Model {
         }
     }
 
-    fn evaluate_at<X: Copy + TryInto<i64>>(
+    fn evaluate_at<X: XBits>(
         &self,
         address: u32,
         xs: &[X],
@@ -76,27 +95,27 @@ impl Model {
         let mut converted = [0; CHUNK];
         let places = intensities.chunks_mut(CHUNK).zip(status.chunks_mut(CHUNK));
         for (chunk, (given, (intensities, status))) in xs.chunks(CHUNK).zip(places).enumerate() {
-            let converted = &mut converted[..given.len()];
-            self.convert(given, converted).map_err(|(place, error)| error.at(chunk * CHUNK + place))?;
-            self.datapath().answer_block(address, converted, intensities, status);
+            let xs = X::in_place(given).unwrap_or_else(|| {
+                let converted = &mut converted[..given.len()];
+                converted.iter_mut().zip(given).for_each(|(to, &x)| *to = bits(x));
+                converted
+            });
+            self.all_held(xs).map_err(|(place, error)| error.at(chunk * CHUNK + place))?;
+            self.datapath().answer_block(address, xs, intensities, status);
         }
         Ok(())
     }
 
-    /// The bits of x as the data path takes them; or the first that is refused, with its place.
-    fn convert<X: Copy + TryInto<i64>>(&self, given: &[X], to: &mut [i64]) -> Result<(), (usize, Error)> {
+    /// Whether the input format holds all of these; or the first that is refused, with its place.
+    fn all_held(&self, xs: &[i64]) -> Result<(), (usize, Error)> {
         let input = self.datapath().formats().input;
         let (least, greatest) = (input.min_bits(), input.max_bits());
         // No choice in the loop, so that it becomes vector instructions.
-        let mut refused = false;
-        for (to, &x) in to.iter_mut().zip(given) {
-            *to = bits(x);
-            refused |= (*to < least) | (*to > greatest);
-        }
+        let refused = xs.iter().fold(false, |refused, &x| refused | (x < least) | (x > greatest));
         if !refused {
             return Ok(());
         }
-        let first = to.iter().enumerate().find_map(|(place, &x)| self.held(x).err().map(|error| (place, error)));
+        let first = xs.iter().enumerate().find_map(|(place, &x)| self.held(x).err().map(|error| (place, error)));
         first.map_or(Ok(()), Err)
     }
 

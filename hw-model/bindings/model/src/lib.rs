@@ -33,7 +33,7 @@ mod error;
 mod handle;
 mod scoreboard;
 
-pub use arrays::Addresses;
+pub use arrays::{Addresses, XBits};
 pub use clocked::Clocked;
 pub use difference::Difference;
 pub use error::{Code, Error};

@@ -25,7 +25,7 @@ pub(crate) fn evaluate<'py>(
     }
 }
 
-fn at_addresses<'py, X: Copy + Sync + TryInto<i64>>(
+fn at_addresses<'py, X: model::XBits + Sync>(
     py: Python<'py>,
     model: &Model,
     addresses: &Whole<'py>,
@@ -39,7 +39,7 @@ fn at_addresses<'py, X: Copy + Sync + TryInto<i64>>(
     }
 }
 
-fn answer<'py, A: Copy + Send + Sync + TryInto<u32>, X: Copy + Sync + TryInto<i64>>(
+fn answer<'py, A: Copy + Send + Sync + TryInto<u32>, X: model::XBits + Sync>(
     py: Python<'py>,
     model: &Model,
     addresses: Addresses<'_, A>,
