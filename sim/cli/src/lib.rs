@@ -27,6 +27,7 @@ mod report;
 mod rom;
 mod rtl;
 mod scene;
+mod scene_import;
 mod signals;
 mod simulate;
 mod specialise;

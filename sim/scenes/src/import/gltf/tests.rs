@@ -62,7 +62,7 @@ fn damaged_documents_are_refused() {
         ("5123, \"count\": 3, \"type\": \"SCALAR\"", "5126, \"count\": 1, \"type\": \"SCALAR\"", "whole numbers"),
         ("\"scale\": [1, 2, 1]", "\"children\": [0]", "below itself"),
         ("\"byteLength\": 54", "\"byteLength\": 55", "54 bytes"),
-        ("data:application/octet-stream,", "there/is none", "cannot be read"),
+        ("data:application/octet-stream,", "there/is none", "buffer 0: "),
         ("[10, 0, 0]", "[1e30, 0, 0]", "out of range"),
         ("\"version\": \"2.0\"", "\"version\": 2", "invalid type"),
     ] {
