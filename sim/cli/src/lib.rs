@@ -29,6 +29,7 @@ mod report;
 mod rom;
 mod rtl;
 mod scene;
+mod scene_import;
 mod shard;
 mod signals;
 mod simulate;

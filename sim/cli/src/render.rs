@@ -16,8 +16,8 @@ use super::output;
 use super::scene::{Loaded, counted, load, resized, size};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use scenes::render::{
-    Answers, Codes, Cycles, Picture, Samples, ScenePipeline, Which, Zone, by_material, difference, encode, heat_map,
-    methods, reference, samples, shade,
+    Answers, Codes, Cycles, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, difference, encode,
+    heat_map, methods, reference, samples, shade,
 };
 use scenes::report::{self as files, RenderReport};
 use scenes::scene::Scene;
@@ -46,6 +46,10 @@ pub(super) struct Args {
     /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
+    /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays with
+    /// x^n of the scene's own n, so that the column `codes` tells what each material pays.
+    #[arg(long)]
+    nearest: bool,
     /// The clock of the hardware, from which frames a second follow, in MHz.
     #[arg(long, value_name = "MHZ", default_value_t = 100.0, value_parser = clock)]
     clock_mhz: f64,
@@ -69,7 +73,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let scene_name = || args.scene.display().to_string();
     let Loaded { mut scene, files: read } = load(&args.scene)?;
     resized(&mut scene, args.size)?;
-    let pipeline = ScenePipeline::new(&design, &scene).with_context(scene_name)?;
+    let rows = if args.nearest { RowFor::Nearest } else { RowFor::Exactly };
+    let pipeline = ScenePipeline::with_rows(&design, &scene, rows).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
     let inputs = [read, args.configuration.files()].concat();
     let names = files::PICTURES.into_iter().chain(files::TABLES);
@@ -91,6 +96,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     match args.format {
         Format::Table => {
             print(&report, out)?;
+            nearest(&scene, &pipeline, out)?;
             times(&highlights, traced, begun.elapsed(), out)?;
             if let Some(directory) = &args.out {
                 let names = [&files::PICTURES[..], &files::TABLES[..]].concat().join(", ");
@@ -230,6 +236,20 @@ fn print(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
     regions(report, out)?;
     writeln!(out)?;
     cycles(report).print(out, Format::Table, 6)
+}
+
+/// Which materials are served by the row of another exponent.
+fn nearest(scene: &Scene, pipeline: &ScenePipeline<'_>, out: &mut Out) -> anyhow::Result<()> {
+    let served = scene.materials.iter().zip(pipeline.rows());
+    let said: Vec<String> = served
+        .filter(|(material, row)| material.exponent != *row)
+        .map(|(material, row)| format!("{} (n = {}) by the row of {row}", material.name, material.exponent))
+        .collect();
+    if said.is_empty() {
+        return Ok(());
+    }
+    writeln!(out)?;
+    Ok(write_folded(out, &format!("served by the nearest row: {}", said.join(", ")))?)
 }
 
 fn materials(report: &RenderReport) -> Rows {

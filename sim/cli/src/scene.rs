@@ -4,20 +4,26 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
-use clap::Args as ClapArgs;
+use clap::{Args as ClapArgs, Subcommand};
 use vectors::text_file::{self, MESH, SCENE};
 
 use super::out::{Out, Outcome};
+use super::scene_import;
 use super::table::{Cell, Format, Rows, write_folded};
 use scenes::scene::{Scene, Shape, schema};
 
 /// Check a scene and list its materials, or print the JSON schema of scenes.
 ///
 /// The scene is read as `blysk render` reads it, meshes included; what it would refuse is refused here. For every
-/// material the table has its exponent and how many spheres, planes and triangles are made of it.
+/// material the table has its exponent and how many spheres, planes and triangles are made of it. `blysk scene import`
+/// makes a scene of a model.
 #[derive(ClapArgs)]
-#[command(after_help = "Examples: blysk scene scene.json\n          blysk scene --schema > schema.json")]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(after_help = "Examples: blysk scene scene.json\n          blysk scene --schema > schema.json\n          \
+                        blysk scene import model.obj --out scene.json")]
 pub(super) struct Args {
+    #[command(subcommand)]
+    action: Option<Action>,
     /// The scene, as JSON.
     #[arg(value_name = "FILE", required_unless_present = "schema")]
     scene: Option<PathBuf>,
@@ -29,7 +35,16 @@ pub(super) struct Args {
     format: Format,
 }
 
+/// What else can be done with scenes. What each does is said at its arguments.
+#[derive(Subcommand)]
+enum Action {
+    Import(scene_import::Args),
+}
+
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
+    if let Some(Action::Import(args)) = &args.action {
+        return scene_import::run(args, out);
+    }
     let Some(path) = &args.scene else {
         out.write_all(schema().as_bytes())?;
         return Ok(Outcome::Good);

@@ -25,6 +25,7 @@ mod report_against_brute_force;
 mod rom;
 mod rom_image;
 mod rtl;
+mod scene_import;
 mod simulate;
 mod specialise;
 mod stability;

@@ -55,6 +55,13 @@ pub const SCENE: TextKind = TextKind::whole("scene", 256 * MIB, "`blysk scene --
 pub const MESH: TextKind =
     TextKind { lossy: true, ..TextKind::whole("mesh", 512 * MIB, "it has no face; give at least one line `f a b c`") };
 
+/// A library of materials: its names may be Latin-1.
+pub const MATERIALS: TextKind =
+    TextKind { lossy: true, ..TextKind::whole("library of materials", 64 * MIB, "it has no `newmtl name`") };
+
+/// A model as glTF, or a buffer of it: JSON, or bytes that are no text.
+pub const MODEL: TextKind = TextKind::whole("model", 512 * MIB, "export the model again");
+
 /// A certificate of `blysk certify` or `blysk specialise`, as JSON.
 pub const CERTIFICATE: TextKind = TextKind::whole("certificate", 256 * MIB, "write the certificate again");
 

@@ -26,8 +26,8 @@ use std::path::Path;
 
 pub use error::TextError;
 pub use kinds::{
-    ANSWER_LOG, CERTIFICATE, CONFIGURATION, JOB, MANIFEST, MEMORY, MESH, PARETO_TABLE, PORT_MAP, QUESTIONS,
-    REGISTER_LOG, SCENE, SHARD_PLAN, SHARD_RESULT, STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
+    ANSWER_LOG, CERTIFICATE, CONFIGURATION, JOB, MANIFEST, MATERIALS, MEMORY, MESH, MODEL, PARETO_TABLE, PORT_MAP,
+    QUESTIONS, REGISTER_LOG, SCENE, SHARD_PLAN, SHARD_RESULT, STIMULUS, SYNTHESIS_TABLE, TextKind, VECTOR_TABLE,
 };
 pub use problem::TextProblem;
 pub(crate) use punctuation::why_other_count;
@@ -55,6 +55,21 @@ pub fn text(path: &Path, kind: TextKind) -> Result<String, TextProblem> {
     }
 }
 
+/// The bytes of the file at `path`, which need not be text; held to the length of its kind.
+///
+/// # Errors
+/// When it cannot be read, is empty, or is longer than its kind may be.
+pub fn bytes(path: &Path, kind: TextKind) -> Result<Vec<u8>, TextProblem> {
+    let mut bytes = Vec::new();
+    // What is no regular file has no length: one byte more shows that there is too much.
+    opened(path, kind)?.take(kind.most_bytes + 1).read_to_end(&mut bytes)?;
+    match kind.when_empty {
+        _ if bytes.len() as u64 > kind.most_bytes => Err(kind.too_long()),
+        Some(advice) if bytes.is_empty() => Err(TextProblem::Empty(advice)),
+        _ => Ok(bytes),
+    }
+}
+
 /// A reader for the text of the file at `path`. What it finds wrong comes as an [`io::Error`](std::io::Error), which turns
 /// into a [`TextProblem`].
 ///
@@ -65,6 +80,10 @@ pub fn open(path: &Path, kind: TextKind) -> Result<TextReader<File>, TextError> 
 }
 
 fn reader(path: &Path, kind: TextKind) -> Result<TextReader<File>, TextProblem> {
+    Ok(TextReader::new(opened(path, kind)?, kind))
+}
+
+fn opened(path: &Path, kind: TextKind) -> Result<File, TextProblem> {
     let about = fs::metadata(path)?;
     if about.is_dir() {
         return Err(TextProblem::Directory);
@@ -73,5 +92,5 @@ fn reader(path: &Path, kind: TextKind) -> Result<TextReader<File>, TextProblem> 
     if about.len() > kind.most_bytes {
         return Err(kind.too_long());
     }
-    Ok(TextReader::new(File::open(path)?, kind))
+    Ok(File::open(path)?)
 }

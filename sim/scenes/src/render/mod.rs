@@ -50,7 +50,7 @@ pub use highlight::{Answers, Zone, reference};
 pub use methods::methods;
 pub use png::{PngError, encode};
 pub use rays::{Ray, ray};
-pub use requests::{Group, MissingExponent, ScenePipeline, Which, bits};
+pub use requests::{Group, MissingExponent, RowFor, ScenePipeline, Which, bits};
 pub use samples::{Sample, Samples, SurfacePixel, samples};
 pub use shading::{Picture, shade};
 pub use sheet::SheetError;

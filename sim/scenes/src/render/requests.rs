@@ -20,7 +20,10 @@ pub fn bits(x: f64, input: QFormat) -> i64 {
 
 /// An exponent of the scene that the hardware has not.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("at `materials[{index}].exponent`: the ROM has no word for n = {exponent}; it has {available}")]
+#[error(
+    "at `materials[{index}].exponent`: the ROM has no word for n = {exponent}; it has {available}; --nearest takes the \
+     nearest of these"
+)]
 pub struct MissingExponent {
     /// The material's place in the scene.
     pub index: usize,
@@ -28,6 +31,16 @@ pub struct MissingExponent {
     pub exponent: f64,
     /// The exponents of the ROM.
     pub available: String,
+}
+
+/// Which row of the ROM serves an exponent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RowFor {
+    /// Its own.
+    Exactly,
+    /// Its own or, where it has none, that of the nearest exponent by ratio: the greatest difference of x^n and x^m
+    /// over x depends on m/n alone, and is the same for n/m.
+    Nearest,
 }
 
 /// Which samples go to the pipeline.
@@ -75,11 +88,19 @@ pub struct ScenePipeline<'a> {
 }
 
 impl<'a> ScenePipeline<'a> {
-    /// The pipeline for the materials of this scene.
+    /// The pipeline for the materials of this scene, each with a row of its own.
     ///
     /// # Errors
     /// When the ROM has no word for the exponent of a material.
     pub fn new(design: &'a Design, scene: &Scene) -> Result<Self, MissingExponent> {
+        Self::with_rows(design, scene, RowFor::Exactly)
+    }
+
+    /// The pipeline for the materials of this scene.
+    ///
+    /// # Errors
+    /// When each is to have a row of its own, and the ROM has no word for the exponent of a material.
+    pub fn with_rows(design: &'a Design, scene: &Scene, rows: RowFor) -> Result<Self, MissingExponent> {
         let rom = design.rom();
         let exponents = scene.exponents();
         let front_end = design.datapath().front_end();
@@ -89,7 +110,11 @@ impl<'a> ScenePipeline<'a> {
             Region::Polynomial | Region::Tail => f64::NEG_INFINITY,
         };
         let row = |(index, exponent): (usize, f64)| {
-            let Some(place) = rom.exponents().position(exponent) else {
+            let place = match rows {
+                RowFor::Exactly => rom.exponents().position(exponent),
+                RowFor::Nearest => nearest(rom.exponents().as_slice(), exponent),
+            };
+            let Some(place) = place else {
                 let available = rom.exponents().to_string();
                 return Err(MissingExponent { index, exponent, available });
             };
@@ -106,6 +131,12 @@ impl<'a> ScenePipeline<'a> {
         let materials = scene.materials.iter().map(|material| material.exponent);
         let rows = materials.enumerate().map(row).collect::<Result<_, _>>()?;
         Ok(Self { design, rows, exponents })
+    }
+
+    /// The exponent of the row that serves each material, in their order.
+    pub fn rows(&self) -> impl Iterator<Item = f64> {
+        let exponents = self.design.rom().exponents().as_slice();
+        self.rows.iter().map(|row| exponents.get(row.address as usize).copied().unwrap_or(row.exponent))
     }
 
     /// The hardware that is asked.
@@ -149,5 +180,33 @@ impl<'a> ScenePipeline<'a> {
         }
         groups.retain(|group| !group.xs.is_empty());
         groups
+    }
+}
+
+/// The place of the exponent nearest to n by ratio, of exponents that rise; the smaller of two that are as near.
+fn nearest(exponents: &[f64], n: f64) -> Option<usize> {
+    let above = exponents.partition_point(|&m| m < n);
+    let ratio = |place: usize| exponents.get(place).map(|&m| (m / n).max(n / m));
+    match (above.checked_sub(1).and_then(ratio), ratio(above)) {
+        (Some(below), Some(at)) if below <= at => Some(above - 1),
+        (_, Some(_)) => Some(above),
+        (Some(_), None) => Some(above - 1),
+        (None, None) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_exponent_is_that_by_ratio() {
+        let list = [1.0, 2.0, 8.0, 32.0];
+        for (n, place) in
+            [(0.5, 0), (1.0, 0), (1.4, 0), (1.5, 1), (3.9, 1), (4.0, 1), (4.1, 2), (16.0, 2), (17.0, 3), (1e9, 3)]
+        {
+            assert_eq!(nearest(&list, n), Some(place), "{n}");
+        }
+        assert_eq!(nearest(&[], 3.0), None);
     }
 }

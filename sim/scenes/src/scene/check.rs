@@ -9,8 +9,8 @@ use hw_model::names;
 use super::checked::{Light, Material, Origin, Scene, Shape, Surface, View};
 use super::description::{self as said, Description, Geometry, Triple};
 use super::error::{MeshError, SceneError};
-use super::mesh::{self, Triangle};
-use super::obj::{GREATEST_COORDINATE, MOST_TRIANGLES};
+use super::mesh::{Mesh, Triangle};
+use super::obj::{GREATEST_COORDINATE, MOST_MATERIALS, MOST_TRIANGLES};
 use super::vector::Vector;
 
 /// Pixels of the longest side of a picture.
@@ -21,8 +21,6 @@ pub(crate) const MOST_SAMPLES: u64 = 1 << 26;
 pub(crate) const DISPLAY_BITS: [u32; 3] = [8, 10, 12];
 /// The most lights.
 const MOST_LIGHTS: usize = 16;
-/// The most materials; an index of 16 bits, with room.
-const MOST_MATERIALS: usize = 4096;
 /// The brightest light.
 const BRIGHTEST: f64 = 100.0;
 
@@ -163,7 +161,7 @@ fn surfaces(
         match geometry {
             Geometry::Sphere(sphere) => {
                 let path = format!("{path}.sphere");
-                let material = material_of(&path, &sphere.material, materials)?;
+                let material = material_of(&format!("{path}.material"), &sphere.material, materials)?;
                 let shape = Shape::Sphere {
                     centre: place(&format!("{path}.centre"), sphere.centre)?,
                     radius: size(&format!("{path}.radius"), sphere.radius)?,
@@ -172,7 +170,7 @@ fn surfaces(
             }
             Geometry::Plane(plane) => {
                 let path = format!("{path}.plane");
-                let material = material_of(&path, &plane.material, materials)?;
+                let material = material_of(&format!("{path}.material"), &plane.material, materials)?;
                 let shape = Shape::Plane {
                     point: place(&format!("{path}.point"), plane.point)?,
                     normal: direction(&format!("{path}.normal"), plane.normal)?,
@@ -181,10 +179,7 @@ fn surfaces(
             }
             Geometry::Mesh(file) => {
                 let path = format!("{path}.mesh");
-                let material = material_of(&path, &file.material, materials)?;
-                let triangles = mesh_surfaces(&path, file, read)?;
-                let triangles = triangles.into_iter().map(Shape::Triangle);
-                surfaces.extend(triangles.map(|shape| Surface { shape, material }));
+                surfaces.extend(mesh_surfaces(&path, file, materials, read)?);
                 if surfaces.len() > MOST_TRIANGLES {
                     let problem = format!("there are more than {MOST_TRIANGLES} triangles; use a coarser mesh");
                     return wrong(format!("{path}.file"), problem);
@@ -198,17 +193,28 @@ fn surfaces(
 fn mesh_surfaces(
     path: &str,
     file: &said::MeshFile,
+    materials: &[Material],
     read: &mut dyn FnMut(&str) -> io::Result<String>,
-) -> Checked<Vec<Triangle>> {
+) -> Checked<Vec<Surface>> {
+    let material = material_of(&format!("{path}.material"), &file.material, materials)?;
     let position = place(&format!("{path}.position"), file.position)?;
     let scale = size(&format!("{path}.scale"), file.scale)?;
     let refused = |source| SceneError::Mesh { path: format!("{path}.file"), file: file.file.clone(), source };
     let text = read(&file.file).map_err(|error| refused(MeshError::Read(error.into())))?;
-    let mut triangles = mesh::triangles(&text, file.normals).map_err(refused)?;
-    for triangle in &mut triangles {
-        triangle.corners = triangle.corners.map(|corner| corner * scale + position);
+    let mesh = Mesh::read(&text, file.normals).map_err(refused)?;
+    // By its place in the file's own list, the material of the scene.
+    let mut own = Vec::new();
+    if file.usemtl {
+        for name in &mesh.materials {
+            own.push(material_of(&format!("{path}.usemtl"), name, materials)?);
+        }
     }
-    Ok(triangles)
+    let surface = |(mut triangle, place): (Triangle, Option<u16>)| {
+        triangle.corners = triangle.corners.map(|corner| corner * scale + position);
+        let material = place.and_then(|place| own.get(usize::from(place)).copied()).unwrap_or(material);
+        Surface { shape: Shape::Triangle(triangle), material }
+    };
+    Ok(mesh.triangles.into_iter().zip(mesh.material_of).map(surface).collect())
 }
 
 fn material_of(path: &str, name: &str, materials: &[Material]) -> Checked<u16> {
@@ -217,7 +223,7 @@ fn material_of(path: &str, name: &str, materials: &[Material]) -> Checked<u16> {
         None => {
             let names: Vec<String> = materials.iter().map(|m| format!("{:?}", m.name)).collect();
             let problem = format!("there is no material {name:?}; there is {}", names.join(", "));
-            wrong(format!("{path}.material"), problem)
+            wrong(path, problem)
         }
     }
 }

@@ -9,12 +9,12 @@ use serde::{Deserialize, Serialize};
 pub(super) type Triple = [f64; 3];
 
 /// A picture to be rendered: what is seen, by which light, and in how many display codes.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "Blysk scene")]
 pub struct Description {
     /// Where the schema is, for editors; not read.
-    #[serde(default, rename = "$schema")]
+    #[serde(default, rename = "$schema", skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// Letters, digits, - and _.
     pub name: String,
@@ -43,7 +43,7 @@ pub struct Description {
 }
 
 /// The picture's size and display codes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Image {
     /// Pixels, 1 to 16384.
@@ -88,7 +88,7 @@ impl Transfer {
 }
 
 /// Which angle the highlight falls off with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Angle {
     /// Between the mirrored light and the viewer: x = R·V.
@@ -110,7 +110,7 @@ impl Angle {
 }
 
 /// Where the picture is seen from.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Where the camera is.
@@ -130,7 +130,7 @@ const fn second_axis() -> Triple {
 }
 
 /// A light. None casts a shadow: what counts is the normal alone.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Light {
     /// From one direction, as from the sun.
@@ -140,7 +140,7 @@ pub enum Light {
 }
 
 /// A light from one direction.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Directional {
     /// The direction towards the light; its length does not matter.
@@ -150,7 +150,7 @@ pub struct Directional {
 }
 
 /// A light at a place.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Point {
     /// Where the light is.
@@ -160,7 +160,7 @@ pub struct Point {
 }
 
 /// What a surface makes of light: ambient, diffuse and specular parts, each a linear colour of 0 to 1.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// What geometry calls it.
@@ -178,7 +178,7 @@ pub struct Material {
 }
 
 /// Something to be seen.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Geometry {
     /// A ball, seen from outside.
@@ -190,7 +190,7 @@ pub enum Geometry {
 }
 
 /// A ball.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Its middle.
@@ -202,7 +202,7 @@ pub struct Sphere {
 }
 
 /// A plane.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// A place on it.
@@ -214,13 +214,16 @@ pub struct Plane {
 }
 
 /// Triangles of a file.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshFile {
-    /// A Wavefront OBJ file; a relative path starts at the scene's directory. Its own materials are not read.
+    /// A Wavefront OBJ file; a relative path starts at the scene's directory. Libraries of materials are not read.
     pub file: String,
-    /// The name of a material.
+    /// The name of a material: of all faces, or with `usemtl` of those that stand before the first such line.
     pub material: String,
+    /// Whether the faces after a line `usemtl NAME` of the file have the scene's material of that name.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub usemtl: bool,
     /// Where the file's origin is put.
     #[serde(default)]
     pub position: Triple,
@@ -232,12 +235,16 @@ pub struct MeshFile {
     pub normals: Normals,
 }
 
+const fn is_false(flag: &bool) -> bool {
+    !*flag
+}
+
 const fn unchanged() -> f64 {
     1.0
 }
 
 /// Where the normals of a mesh come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Normals {
     /// Those of the file; where it has none, the mean of the triangles around a corner, weighed by their angles

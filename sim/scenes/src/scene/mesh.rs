@@ -23,10 +23,22 @@ impl Triangle {
     }
 }
 
+/// The triangles of a file, and the materials that it says they have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    /// The triangles, in the order of the faces.
+    pub triangles: Vec<Triangle>,
+    /// For each triangle the place of its material in [`Mesh::materials`]; none for faces before the first `usemtl`.
+    pub material_of: Vec<Option<u16>>,
+    /// The names that `usemtl` says, in the order of the file, each once.
+    pub materials: Vec<String>,
+}
+
 /// A triangle of a face.
 struct Piece {
     /// The line of the face.
     line: usize,
+    material: Option<u16>,
     corners: [Corner; 3],
 }
 
@@ -42,11 +54,23 @@ struct Pieces<'a> {
 /// When a line cannot be read, a number is not finite, a face has no area or is no polygon, a normal no direction, or
 /// there is no face at all; with the line.
 pub fn triangles(text: &str, normals: Normals) -> Result<Vec<Triangle>, MeshError> {
-    let obj = Obj::read(text)?;
-    let pieces = Pieces::of(&obj)?;
-    match normals {
-        Normals::Flat => Ok(pieces.flat()),
-        Normals::Smooth => pieces.smooth(),
+    Mesh::read(text, normals).map(|mesh| mesh.triangles)
+}
+
+impl Mesh {
+    /// The triangles in the text of a Wavefront OBJ file, with the names of their materials.
+    ///
+    /// # Errors
+    /// Those of [`triangles`].
+    pub fn read(text: &str, normals: Normals) -> Result<Self, MeshError> {
+        let obj = Obj::read(text)?;
+        let pieces = Pieces::of(&obj)?;
+        let triangles = match normals {
+            Normals::Flat => pieces.flat(),
+            Normals::Smooth => pieces.smooth()?,
+        };
+        let material_of = pieces.list.iter().map(|piece| piece.material).collect();
+        Ok(Self { triangles, material_of, materials: obj.materials })
     }
 }
 
@@ -60,7 +84,8 @@ impl<'a> Pieces<'a> {
             places.extend(face.corners.iter().map(|corner| obj.position(*corner)));
             let triangles = polygon::triangles(&places).map_err(|problem| MeshError::Line { line, problem })?;
             let corner = |index: usize| face.corners.get(index).copied().unwrap_or_default();
-            list.extend(triangles.into_iter().map(|of| Piece { line, corners: of.map(corner) }));
+            let material = face.material;
+            list.extend(triangles.into_iter().map(|of| Piece { line, material, corners: of.map(corner) }));
         }
         Ok(Self { obj, list })
     }

@@ -21,8 +21,13 @@ mod vector;
 pub(crate) use check::DISPLAY_BITS;
 pub use checked::{Light, Material, Origin, Scene, Shape, Surface, View};
 pub use description::{Angle, Description, Image, Normals, Transfer};
+pub(crate) use description::{
+    Camera, Directional, Geometry, Light as LightDescription, Material as MaterialDescription, MeshFile,
+};
 pub use error::{MeshError, SceneError};
 pub use knot::{Knot, KnotError};
-pub use mesh::{Triangle, triangles};
+pub use mesh::{Mesh, Triangle, triangles};
+pub(crate) use obj::{MOST_TRIANGLES, Statements, name_behind};
+pub(crate) use polygon::has_area;
 pub use read::schema;
 pub use vector::Vector;

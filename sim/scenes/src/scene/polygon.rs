@@ -16,7 +16,7 @@ const MOST_CORNERS: usize = 4096;
 const LEAST_HEIGHT: f64 = 1e-12;
 
 /// True where a triangle has a plane and a normal.
-pub(super) fn has_area(corners @ [a, b, c]: [Vector; 3]) -> bool {
+pub(crate) fn has_area(corners @ [a, b, c]: [Vector; 3]) -> bool {
     let longest = (b - a).length().max((c - b).length()).max((a - c).length());
     let area = plane_normal(corners).length();
     area > LEAST_HEIGHT * longest * longest && area > f64::MIN_POSITIVE

@@ -7,20 +7,25 @@
 //! | `vt` | counted, never read: texture coordinates are not used |
 //! | `f` (and `fo`, its old name) | a face: corners `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or back from -1 |
 //! | `surf`, the old patches and `call` | refused: leaving them out would leave a hole |
-//! | anything else | passed over: names, groups, materials, lines, points, curves |
+//! | `usemtl name` | the material of the faces after it, by the name it has in a library; without a name, none |
+//! | anything else | passed over: names, groups, lines, points, curves |
 //!
 //! The reader is our own: docs/DEPENDENCIES.md says what the loaders that there are would do.
 
 mod statements;
 
+use std::collections::HashMap;
+
 use super::error::MeshError;
 use super::vector::Vector;
-use statements::Statements;
+pub(crate) use statements::Statements;
 
 /// Coordinates beyond these are mistakes: squares of lengths must stay far from the ends of f64.
 pub(super) const GREATEST_COORDINATE: f64 = 1e9;
 /// The most triangles of a scene: they take half a gigabyte.
-pub(super) const MOST_TRIANGLES: usize = 4_000_000;
+pub(crate) const MOST_TRIANGLES: usize = 4_000_000;
+/// The most materials of a file, and of a scene; an index of 16 bits, with room.
+pub(super) const MOST_MATERIALS: usize = 4096;
 /// The most positions, and the most normals.
 const MOST_VECTORS: usize = 1 << 24;
 
@@ -47,6 +52,8 @@ pub(super) struct Face<'a> {
     pub line: usize,
     /// The corners, 3 or more.
     pub corners: &'a [Corner],
+    /// The place of its material in [`Obj::materials`]; none before the first `usemtl`.
+    pub material: Option<u16>,
 }
 
 /// A `vn`: exporters write normals that are none and use them nowhere.
@@ -67,8 +74,13 @@ pub(super) struct Obj {
     normals: Vec<Normal>,
     texture_coordinates: usize,
     corners: Vec<Corner>,
-    /// The line of each face, and its first corner.
-    faces: Vec<(usize, usize)>,
+    /// The line of each face, its first corner and its material.
+    faces: Vec<(usize, usize, Option<u16>)>,
+    /// The names that `usemtl` says, in the order of the file, each once.
+    pub materials: Vec<String>,
+    /// The place of a name there.
+    material_places: HashMap<String, u16>,
+    material: Option<u16>,
     triangles: usize,
     /// Of positions, texture coordinates and normals: the greatest index used, and its line. A face may stand before
     /// what it names.
@@ -102,10 +114,10 @@ impl Obj {
     /// The faces, in the order of the file.
     pub(super) fn faces(&self) -> impl Iterator<Item = Face<'_>> {
         let ends = self.faces.iter().skip(1).map(|face| face.1).chain([self.corners.len()]);
-        self.faces
-            .iter()
-            .zip(ends)
-            .map(|(&(line, first), end)| Face { line, corners: self.corners.get(first..end).unwrap_or_default() })
+        self.faces.iter().zip(ends).map(|(&(line, first, material), end)| {
+            let corners = self.corners.get(first..end).unwrap_or_default();
+            Face { line, corners, material }
+        })
     }
 
     /// Where a corner is.
@@ -141,6 +153,7 @@ impl Obj {
                 self.normals.push(Normal { unit: direction(words), line });
             }
             "f" | "fo" => self.face(line, words)?,
+            "usemtl" => self.material = self.place_of_material(name_behind(statement))?,
             "surf" | "bsp" | "bzp" | "cdc" | "cdp" => {
                 let said = format!("free-form surfaces (`{keyword}`) are not read; export polygons");
                 return Err(said);
@@ -158,6 +171,23 @@ impl Obj {
             _ => {}
         }
         Ok(())
+    }
+
+    /// The place of a material's name in the list, where it is put if it is new. Without a name there is no material.
+    fn place_of_material(&mut self, name: &str) -> Result<Option<u16>, String> {
+        if name.is_empty() {
+            return Ok(None);
+        }
+        if let Some(&place) = self.material_places.get(name) {
+            return Ok(Some(place));
+        }
+        let place = self.materials.len();
+        if place >= MOST_MATERIALS {
+            return Err(format!("there are more than {MOST_MATERIALS} names of materials; merge some"));
+        }
+        self.materials.push(name.to_owned());
+        self.material_places.insert(name.to_owned(), place as u16);
+        Ok(Some(place as u16))
     }
 
     fn face<'a>(&mut self, line: usize, words: impl Iterator<Item = &'a str>) -> Result<(), String> {
@@ -181,7 +211,7 @@ impl Obj {
         if self.triangles > MOST_TRIANGLES {
             return Err(format!("there are more than {MOST_TRIANGLES} triangles; use a coarser mesh"));
         }
-        self.faces.push((line, first));
+        self.faces.push((line, first, self.material));
         Ok(())
     }
 
@@ -213,6 +243,12 @@ impl Obj {
         }
         Ok(index - 1)
     }
+}
+
+/// What stands behind the keyword of a statement: names may have spaces in them.
+pub(crate) fn name_behind(statement: &str) -> &str {
+    let statement = statement.trim();
+    statement.split_once(char::is_whitespace).map_or("", |(_, name)| name.trim())
 }
 
 fn room(count: usize, keyword: &str) -> Result<(), String> {

@@ -1,4 +1,4 @@
-//! The statements of an OBJ file: lines without their comments, joined where they go on.
+//! The statements of an OBJ file, or of a library of its materials: lines without their comments, joined where they go on.
 
 use std::borrow::Cow;
 use std::iter::Enumerate;
@@ -10,12 +10,12 @@ use std::str::Lines;
 /// with a space between. A comment is not joined to anything: one that ends in a path, `C:\models\`, would swallow a
 /// vertex.
 #[derive(Debug)]
-pub(super) struct Statements<'a> {
+pub(crate) struct Statements<'a> {
     lines: Enumerate<Lines<'a>>,
 }
 
 impl<'a> Statements<'a> {
-    pub(super) fn of(text: &'a str) -> Self {
+    pub(crate) fn of(text: &'a str) -> Self {
         Self { lines: text.lines().enumerate() }
     }
 }
