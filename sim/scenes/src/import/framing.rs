@@ -65,7 +65,7 @@ pub(super) fn scene(
         .map(|corner| corner - middle)
         .map(|p| (p.dot(above).abs() / half_height).max(p.dot(right).abs() / half_width) - p.dot(forward))
         .fold(0.0, f64::max);
-    if !(distance > 0.0) {
+    if distance <= 0.0 {
         return Err(ImportError::NoSize);
     }
     let [x, y, z] = TOWARDS_LIGHT;

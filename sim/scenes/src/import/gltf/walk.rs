@@ -74,7 +74,7 @@ fn primitive<'a>(
         positions: places.iter().map(|&place| moved(matrix, place)).collect(),
         normals: normals.unwrap_or_default().into_iter().map(|normal| turned(&turn, normal)).collect(),
     };
-    let far = |place: &Vector| place.coordinates().iter().any(|part| !(part.abs() <= 1e9));
+    let far = |place: &Vector| place.coordinates().iter().any(|part| !(-1e9..=1e9).contains(part));
     if corners.positions.iter().any(far) {
         return Err(ImportError::Gltf("a position is out of range; use numbers from -1e9 to 1e9".into()));
     }
@@ -89,11 +89,17 @@ fn primitive<'a>(
 fn triangles(mode: Mode, order: &[usize]) -> Vec<[usize; 3]> {
     match mode {
         Mode::TriangleStrip => {
-            let windows = order.array_windows::<3>().enumerate();
-            windows.map(|(index, &[a, b, c])| if index % 2 == 0 { [a, b, c] } else { [b, a, c] }).collect()
+            let triangle = |index: usize| match order.get(index..index + 3) {
+                Some(&[a, b, c]) if index.is_multiple_of(2) => Some([a, b, c]),
+                Some(&[a, b, c]) => Some([b, a, c]),
+                _ => None,
+            };
+            (0..order.len()).map_while(triangle).collect()
         }
         Mode::TriangleFan => match order.split_first() {
-            Some((&first, rest)) => rest.array_windows::<2>().map(|&[b, c]| [first, b, c]).collect(),
+            Some((&first, rest)) => {
+                rest.windows(2).filter_map(|pair| Some([first, *pair.first()?, *pair.last()?])).collect()
+            }
             None => Vec::new(),
         },
         _ => order.as_chunks::<3>().0.to_vec(),
