@@ -23,8 +23,8 @@ pub struct Pipelining {
     pub front_end: u32,
     /// A register before each multiplier, which only copies its operands.
     pub operands: bool,
-    /// Ranks behind each multiplier: 1 holds the whole product; 2 hold the products of pieces of the operands, of at most
-    /// [`PIECE`] bits each, and then the whole.
+    /// Ranks behind each multiplier: 1 holds the whole product; 2 hold the products of pieces of the operands, the
+    /// lower ones of [`PIECE`] bits, and then the whole.
     pub product: u32,
     /// A register behind each sum, before it is rounded.
     pub sum: bool,
