@@ -128,7 +128,7 @@ fn a_bit_that_is_the_same_in_every_row_may_be_stuck_there_and_nowhere_else() {
     for bit in 0..width {
         for (value, mode, other) in [(always, "const1", "const0"), (!ever, "const0", "const1")] {
             if value >> bit & 1 == 1 {
-                let at = |mode| mutation(prover.graph(), mode, "tail.a_at_1", bit, "D");
+                let at = |mode| mutation(prover.graph(), mode, "tail.a_added", bit, "D");
                 let same = prover.judge(1, &at(mode)).unwrap();
                 assert!(matches!(same, Judgement::Equivalent(_)), "bit {bit}: {same:?}");
                 let not_same = prover.judge(1, &at(other)).unwrap();
