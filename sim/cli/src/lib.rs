@@ -21,6 +21,7 @@ mod out;
 mod output;
 mod pareto;
 mod pareto_tables;
+mod picture_size;
 mod presets;
 mod recordings;
 mod refine;

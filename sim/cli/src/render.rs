@@ -13,8 +13,9 @@ use super::bar::Bar;
 use super::configuration::Configuration;
 use super::out::{Out, Outcome};
 use super::output;
-use super::scene::{Loaded, counted, load, resized, size};
-use super::table::{Cell, Format, Rows, digits, write_folded};
+use super::picture_size::size;
+use super::scene::{Loaded, load, resized};
+use super::table::{Cell, Format, Rows, counted, digits, write_folded};
 use scenes::render::{
     Answers, Codes, Cycles, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, difference, encode,
     heat_map, methods, reference, samples, shade,
@@ -46,8 +47,8 @@ pub(super) struct Args {
     /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays with
-    /// x^n of the scene's own n, so that the column `codes` tells what each material pays.
+    /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays
+    /// with x^n of the scene's own n, so that the column `codes` tells what each material pays.
     #[arg(long)]
     nearest: bool,
     /// The clock of the hardware, from which frames a second follow, in MHz.

@@ -9,7 +9,7 @@ use vectors::text_file::{self, MESH, SCENE};
 
 use super::out::{Out, Outcome};
 use super::scene_import;
-use super::table::{Cell, Format, Rows, write_folded};
+use super::table::{Cell, Format, Rows, counted, write_folded};
 use scenes::scene::{Scene, Shape, schema};
 
 /// Check a scene and list its materials, or print the JSON schema of scenes.
@@ -86,11 +86,6 @@ fn rows(scene: &Scene) -> Rows {
     rows
 }
 
-/// `1 light`, `2 lights`.
-pub(super) fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
-}
-
 /// A scene that was read.
 pub(super) struct Loaded {
     pub(super) scene: Scene,
@@ -110,13 +105,6 @@ pub(super) fn load(path: &Path) -> anyhow::Result<Loaded> {
         Ok(text_file::text(&mesh, MESH)?)
     });
     Ok(Loaded { scene: scene.with_context(|| shown.to_string())?, files })
-}
-
-/// A size as `--size` has it: `1920x1080`.
-pub(super) fn size(text: &str) -> Result<(u32, u32), String> {
-    let wrong = || format!("{text:?} is no size; write width x height in pixels, for example 1920x1080");
-    let (width, height) = text.split_once('x').ok_or_else(wrong)?;
-    Ok((width.parse().map_err(|_| wrong())?, height.parse().map_err(|_| wrong())?))
 }
 
 /// The scene in another size.

@@ -11,8 +11,8 @@ use vectors::text_file::{self, MATERIALS, MESH, MODEL};
 
 use super::out::{Out, Outcome};
 use super::output::is_standard_output;
-use super::scene::{counted, size};
-use super::table::{Cell, Format, Rows, write_folded};
+use super::picture_size::size;
+use super::table::{Cell, Format, Rows, counted, write_folded};
 use scenes::import::{Imported, Library, UpAxis, Wish, gltf, obj};
 use scenes::scene::Scene;
 

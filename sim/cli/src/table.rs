@@ -108,6 +108,11 @@ fn shortest(value: f64) -> String {
     if scientific.len() < plain.len() { scientific } else { plain }
 }
 
+/// `1 light`, `2 lights`.
+pub(super) fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Writes text on lines of at most [`TERMINAL_WIDTH`] columns; a longer word has a line of its own.
 pub(super) fn write_folded(out: &mut dyn Write, text: &str) -> std::io::Result<()> {
     let mut column = 0;

@@ -107,7 +107,10 @@ pub enum ShardError {
         last: u32,
     },
     /// The directory has a plan of something else.
-    #[error("{} is the plan of another job, or of another number of shards; give --out another directory", .0.display())]
+    #[error(
+        "{} is the plan of another job, or of another number of shards; give --out another directory",
+        .0.display()
+    )]
     OtherPlan(PathBuf),
     /// A file is no plan.
     #[error("{}: {cause}", path.display())]

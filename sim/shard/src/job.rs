@@ -134,7 +134,10 @@ pub enum JobError {
         cause: serde_json::Error,
     },
     /// The file is something else, or of another version.
-    #[error("{}: it says format {format:?}, version {version}; a job says {FORMAT:?}, version {VERSION}", path.display())]
+    #[error(
+        "{}: it says format {format:?}, version {version}; a job says {FORMAT:?}, version {VERSION}",
+        path.display()
+    )]
     Version {
         /// The path of the job.
         path: PathBuf,

@@ -5,9 +5,10 @@
 //! shard, and [`merge()`](merge::merge) puts what was found together in the order of the pieces. So the merged report is
 //! the same, bit for bit, for any number of shards.
 //!
-//! A shard is pure: it reads the plan, and writes one file, whole or not at all. A result that is there is believed only
-//! if it names the job by its digest and the version of this program; so a shard may be run twice. How far a shard has
-//! come is kept in a checkpoint, which is a result of fewer pieces: a shard that was killed goes on from there.
+//! A shard is pure: it reads the plan, and writes one file, whole or not at all. A result that is there is believed
+//! only if it names the job by its digest and the version of this program; so a shard may be run twice. How far a
+//! shard has come is kept in a checkpoint, which is a result of fewer pieces: a shard that was killed goes on from
+//! there.
 #![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod error;

@@ -1,7 +1,7 @@
 //! Putting the results of all shards together.
 //!
-//! What is merged is every file of the directory of results, whatever its name: results say themselves which pieces they
-//! are of. The files must have every piece of the job once, be of this job, and of this version of the program.
+//! What is merged is every file of the directory of results, whatever its name: results say themselves which pieces
+//! they are of. The files must have every piece of the job once, be of this job, and of this version of the program.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -87,8 +87,8 @@ impl Plan {
     }
 
     /// Adds what a job needs before it is planned: the digest of its program, and for RTL what Verilator builds of it.
-    /// That the job can be cut into so many shards is looked at before anything is built. A directory that has a plan has
-    /// the program already.
+    /// That the job can be cut into so many shards is looked at before anything is built. A directory that has a plan
+    /// has the program already.
     ///
     /// # Errors
     /// As [`new`](Self::new), and when the program cannot be built.

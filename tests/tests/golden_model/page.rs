@@ -107,7 +107,8 @@ fn every_way_of_the_page_ends_in_a_passing_check() {
 
 #[test]
 fn files_commands_and_output_are_told_apart() {
-    let page = "Put this into `a/b.py`:\n\n```python\nx = 1\n```\n\nand\n\n```json\n{}\n```\n```console\n$ one \\\n    two\n\
+    let page = "Put this into `a/b.py`:\n\n```python\nx = 1\n```\n\nand\n\n```json\n{}\n```\n```console\n\
+                $ one \\\n    two\n\
                 said\n…\n$ three\n```\n";
     let file = Step::File { name: "a/b.py".into(), contents: "x = 1\n".into() };
     let one = Step::Command { command: "one \\\n    two".into(), shown: vec!["said".into()] };

@@ -1,5 +1,5 @@
-//! What the tests need beside cargo's programs: the Python package in its environment, the C library as `make c` lays it
-//! out, and the newer Verilator.
+//! What the tests need beside cargo's programs: the Python package in its environment, the C library as `make c` lays
+//! it out, and the newer Verilator.
 
 use std::fs;
 use std::io;

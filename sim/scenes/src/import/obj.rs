@@ -22,8 +22,8 @@ pub struct Library {
     pub text: String,
 }
 
-/// A scene of the model in the text of an OBJ file. `libraries` count before those that the file names (`mtllib`), which
-/// `read` gives by the name they have there.
+/// A scene of the model in the text of an OBJ file. `libraries` count before those that the file names (`mtllib`),
+/// which `read` gives by the name they have there.
 ///
 /// # Errors
 /// Where the mesh cannot be used, or a line of a library cannot be read. A library that is not there is a remark.
@@ -68,8 +68,8 @@ pub fn obj(
     Ok(Imported { description, treated, remarks, mesh: None })
 }
 
-/// The names behind `mtllib`, each once. A name may have spaces in it, and a line may have several names: it is one name
-/// where there is such a file.
+/// The names behind `mtllib`, each once. A name may have spaces in it, and a line may have several names: it is one
+/// name where there is such a file.
 fn named_libraries(text: &str, read: &mut dyn FnMut(&str) -> io::Result<String>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for (_, statement) in Statements::of(text) {

@@ -22,8 +22,8 @@ use crate::part::{Part, RowPart};
 /// Pieces of a thread between two checkpoints, at least: tenths of a second.
 const STEP: u64 = 16;
 
-/// No error is greater, as a fraction of full intensity: hardware, ROM and x^n lie in [0, 1], and the rational tail of a
-/// real row may be a little above.
+/// No error is greater, as a fraction of full intensity: hardware, ROM and x^n lie in [0, 1], and the rational tail
+/// of a real row may be a little above.
 const GREATEST_ERROR: f64 = 2.0;
 
 /// What the errors are measured for.

@@ -26,8 +26,8 @@ fn rows(pieces: Pieces, range: &Range<u64>) -> impl Iterator<Item = (u32, i64, i
     })
 }
 
-/// Whether parts are the rows of these pieces. `told` gives of a part its address and its number of samples, and what is
-/// wrong with what it says of x from first to last; nothing for a part of another kind.
+/// Whether parts are the rows of these pieces. `told` gives of a part its address and its number of samples, and what
+/// is wrong with what it says of x from first to last; nothing for a part of another kind.
 pub(super) fn check_rows(
     pieces: &Pieces,
     range: &Range<u64>,

@@ -24,7 +24,8 @@ fn document(extra: &str, indices: &[u16]) -> String {
                         "min": [0, 0, 0], "max": [1, 1, 1]}},
                       {{"bufferView": 1, "componentType": 5123, "count": {count}, "type": "SCALAR"}}],
         "materials": [{{"name": "a # b", "pbrMetallicRoughness":
-                        {{"baseColorFactor": [1, 0.5, 0, 1], "metallicFactor": 0.5, "roughnessFactor": 0.5}}}}]{extra}}}"#,
+                        {{"baseColorFactor": [1, 0.5, 0, 1], "metallicFactor": 0.5,
+                          "roughnessFactor": 0.5}}}}]{extra}}}"#,
         2 * count
     )
 }

@@ -1,4 +1,4 @@
-//! The statements of an OBJ file, or of a library of its materials: lines without their comments, joined where they go on.
+//! The statements of an OBJ file, or of a library of its materials: lines without comments, joined where they go on.
 
 use std::borrow::Cow;
 use std::iter::Enumerate;
