@@ -134,13 +134,15 @@ module blysk #(
   // The fields as its last rank reads them: behind the comparisons where these have a rank of their own.
   logic [FIELDS_WIDTH-1:0] fields;
   genvar f;
-  for (f = 0; f < FIELDS; f = f + 1) begin : word_field
-    localparam int WIDTH  = FIELD_WIDTH[32*f+:32];
-    localparam int PLACE  = FIELD_PLACE[32*f+:32];
-    localparam int STORED = FRONT_END_RANKS != 0 ? FIELD_CHOSEN[32*f+:32] : 0;
-    blysk_delay #(.WIDTH(WIDTH), .RANKS(1), .STORED(STORED)) held (
-      .clk_i, .load_i(load[COMPARE]), .value_i(word[PLACE+:WIDTH]), .value_o(fields[PLACE+:WIDTH]));
-  end
+  generate
+    for (f = 0; f < FIELDS; f = f + 1) begin : word_field
+      localparam int WIDTH  = FIELD_WIDTH[32*f+:32];
+      localparam int PLACE  = FIELD_PLACE[32*f+:32];
+      localparam int STORED = FRONT_END_RANKS != 0 ? FIELD_CHOSEN[32*f+:32] : 0;
+      blysk_delay #(.WIDTH(WIDTH), .RANKS(1), .STORED(STORED)) held (
+        .clk_i, .load_i(load[COMPARE]), .value_i(word[PLACE+:WIDTH]), .value_o(fields[PLACE+:WIDTH]));
+    end
+  endgenerate
 
   logic [V_WIDTH-1:0]      v;
   logic [X_WIDTH-1:0]      tail_x;
