@@ -49,6 +49,7 @@ fn with_files(bench: &Bench) {
     let mine = shown.replace("UQ1.23", "UQ1.11").replace("1..=256", "1..=4");
     assert_ne!(shown, mine);
     bench.write("mine.json", mine);
+    bench.write("mine.csv", "n,x\n64,0.99\n1,1\n");
     bench.write("model.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let work = "{\"errors\": {\"configuration\": {\"file\": \"small.json\"}, \"bound\": 0.5}}";
     bench.write("job.json", format!("{{\"format\": \"blysk job\", \"version\": 1, \"work\": {work}}}"));
