@@ -5,8 +5,8 @@ use crate::scene::{
     MaterialDescription as Material, MeshFile, Normals, Transfer, Vector,
 };
 
-use super::Wish;
 use super::error::ImportError;
+use super::wish::Wish;
 
 /// The angle from the lower to the upper edge of the picture: that of a portrait lens.
 const FIELD_OF_VIEW_DEGREES: f64 = 30.0;
@@ -16,26 +16,6 @@ const FILLED: f64 = 0.92;
 const TOWARDS_CAMERA: [f64; 3] = [0.55, 0.4, 1.0];
 /// From the model to the light, in the picture: from the left, from above, from the camera's side.
 const TOWARDS_LIGHT: [f64; 3] = [-0.5, 0.7, 0.8];
-
-/// The axis of a model that is upwards in the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UpAxis {
-    /// y, as in glTF and in most OBJ files.
-    #[default]
-    Y,
-    /// z, as in files for building and printing.
-    Z,
-}
-
-impl UpAxis {
-    /// A direction, given as from the right, from above and from the front, in the model's axes.
-    fn turn(self, [right, above, front]: [f64; 3]) -> Vector {
-        match self {
-            Self::Y => Vector::new(right, above, front),
-            Self::Z => Vector::new(right, -front, above),
-        }
-    }
-}
 
 /// A scene of one mesh with these materials, seen from where it fills the picture.
 ///
@@ -121,6 +101,7 @@ fn rounded(place: Vector, size: f64) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::import::UpAxis;
 
     fn wish(size: (u32, u32), up: UpAxis) -> Wish {
         Wish { name: "model".into(), mesh: "model.obj".into(), size, up }

@@ -15,37 +15,10 @@ mod gltf;
 mod material;
 mod mtl;
 mod obj;
+mod wish;
 
 pub use error::ImportError;
-pub use framing::UpAxis;
 pub use gltf::gltf;
 pub use material::Treated;
 pub use obj::{Library, obj};
-
-use crate::scene::Description;
-
-/// A scene that was made of a model, and what it took.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Imported {
-    /// The scene, as its file will say it.
-    pub description: Description,
-    /// What became of each material, in the order of the scene's.
-    pub treated: Vec<Treated>,
-    /// Sentences about the whole: libraries that are not there, parts of the model that are not taken.
-    pub remarks: Vec<String>,
-    /// The text of the OBJ file that the scene names, where the model itself is none.
-    pub mesh: Option<String>,
-}
-
-/// How a scene is to be made of a model.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Wish {
-    /// The scene's name: letters, digits, - and _.
-    pub name: String,
-    /// What the scene calls the mesh: a path from the scene's directory.
-    pub mesh: String,
-    /// Pixels of the picture: width and height, 1 to 16384 each.
-    pub size: (u32, u32),
-    /// The axis of the model that is upwards in the picture.
-    pub up: UpAxis,
-}
+pub use wish::{Imported, UpAxis, Wish};

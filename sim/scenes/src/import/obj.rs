@@ -6,9 +6,10 @@ use std::io;
 use crate::scene::{Angle, Mesh, Normals, Statements, name_behind};
 
 use super::error::ImportError;
+use super::framing;
 use super::material::Draft;
 use super::mtl::{self, Written};
-use super::{Imported, Wish, framing};
+use super::wish::{Imported, Wish};
 
 /// What faces before the first `usemtl` are made of.
 const NAMELESS: &str = "nameless";

@@ -22,7 +22,8 @@ use std::io;
 use crate::scene::{Angle, Mesh, Normals};
 
 use super::error::ImportError;
-use super::{Imported, Wish, framing};
+use super::framing;
+use super::wish::{Imported, Wish};
 use obj_text::ObjText;
 
 /// A scene of the model in the bytes of a glTF file. `read` gives a buffer's file by the name it has there.
