@@ -47,7 +47,7 @@ fn certificates_of_methods_are_those_of_one_machine() {
     let bench = bench!();
     let _said = bench.good("certify --method composite --exponents 1..=2,2.5 --out certificate.json");
     let work = "{\"certify\": {\"exponents\": {\"methods\": [\"composite\"], \"exponents\": \"1..=2,2.5\"}}}";
-    same_certificate(&bench, &job(work), &[1, 3, 10]);
+    same_certificate(&bench, &job(work), &[1, 3, 6]);
     let _said = bench.good("certify --all-real-n --out certificate.json");
     let work = "{\"certify\": {\"every_exponent\": {\"methods\": [\"hermite\"]}}}";
     same_certificate(&bench, &job(work), &[1]);
