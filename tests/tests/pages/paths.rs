@@ -109,10 +109,6 @@ fn names(page: &str) -> Vec<Name> {
             block = !block;
             continue;
         }
-        // What a page has its reader write is no file of the tree.
-        if !block && line.ends_with("`:") {
-            continue;
-        }
         if block {
             // What cargo is asked for is a matter of cargo: the crate of the command may move.
             let code = if line.starts_with("$ cargo ") { "" } else { line };

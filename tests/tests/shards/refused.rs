@@ -100,15 +100,19 @@ fn plans_that_do_not_follow_from_their_job_are_refused() {
         ("\"shards\": 3", "\"shards\": 9", "use 1 to 8"),
         ("\"bound\": 0.0067", "\"bound\": 0.0068", "its digest"),
         ("\"bound\": 0.0067", "\"bound\": 2.0", "errors.bound"),
-        ("\"exponents\": \"1..=8\"", "\"exponents\": \"0..=8\"", "exponent"),
     ];
     for (from, to, said) in alterations {
         bench.write("campaign/plan.json", resealed(&right, from, to));
         bench.refused("shard merge campaign", &[said]);
         bench.refused("shard run campaign --index 0", &[said]);
         bench.write("campaign/plan.json", right.replacen(from, to, 1));
-        bench.refused("shard status campaign", &["plan.json"]);
+        bench.refused("shard status campaign", &["plan.json", "sealed"]);
     }
+    // What is no configuration is so with any seal.
+    let altered = right.replacen("\"1..=8\"", "\"0..=8\"", 1);
+    assert_ne!(altered, right);
+    bench.write("campaign/plan.json", altered);
+    bench.refused("shard merge campaign", &["plan.json", "the exponent 0 is out of range"]);
 }
 
 #[test]
@@ -144,10 +148,10 @@ fn jobs_that_are_none_are_refused() {
         (errors("small.json").replace("\"bound\"", "\"bounds\""), "unknown field `bounds`"),
         (errors("absent.json"), "cannot read the configuration absent.json"),
         (errors("job.json"), "job.json"),
-        (errors("long.json"), "narrower"),
+        (errors("long.json"), "the job has 34359738624 pieces, and at most 4294967296 are planned"),
         (hardware("{\"preset\": \"polish\"}"), "polish"),
         (hardware("{\"name\": \"compact\"}"), "unknown variant `name`"),
-        (hardware("{\"file\": \"long.json\"}"), "narrower"),
+        (hardware("{\"file\": \"long.json\"}"), "are more than the 1099511627776 (2^40)"),
         (job("{\"polish\": {}}"), "unknown variant `polish`"),
         (job("{\"certify\": {\"every_exponent\": {\"methods\": []}}}"), "name at least one method"),
         (

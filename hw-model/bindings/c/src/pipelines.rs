@@ -95,6 +95,21 @@ pub extern "C" fn blysk_pipeline_reset(pipeline: Option<&mut Pipeline>) -> Code 
     })
 }
 
+/// Writes what the ports show when a step is done with these inputs.
+fn show(
+    pipeline: Option<&mut Pipeline>,
+    inputs: Option<&Inputs>,
+    outputs: Option<&mut MaybeUninit<Outputs>>,
+    step: impl FnOnce(&mut Clocked, &model::Inputs) -> Result<model::Outputs, model::Error>,
+) -> Code {
+    guard(|| {
+        let outputs = given(outputs, "the place for the outputs")?;
+        let inputs = given(inputs, "the inputs")?.into();
+        outputs.write(step(&mut given(pipeline, PIPELINE)?.clocked, &inputs)?.into());
+        Ok(())
+    })
+}
+
 /// One clock cycle: writes what the ports show with these inputs at the rising edge that ends the cycle; then the edge.
 ///
 /// Bits of x that the input format does not hold are `BLYSK_CODE_X`, and then no cycle has passed.
@@ -104,12 +119,7 @@ pub extern "C" fn blysk_pipeline_tick(
     inputs: Option<&Inputs>,
     outputs: Option<&mut MaybeUninit<Outputs>>,
 ) -> Code {
-    guard(|| {
-        let outputs = given(outputs, "the place for the outputs")?;
-        let inputs = given(inputs, "the inputs")?.into();
-        outputs.write(given(pipeline, PIPELINE)?.clocked.tick(&inputs)?.into());
-        Ok(())
-    })
+    show(pipeline, inputs, outputs, Clocked::tick)
 }
 
 /// Writes what the ports show with these inputs before the edge, which `blysk_pipeline_clock` then brings. It may be
@@ -120,12 +130,7 @@ pub extern "C" fn blysk_pipeline_combinational(
     inputs: Option<&Inputs>,
     outputs: Option<&mut MaybeUninit<Outputs>>,
 ) -> Code {
-    guard(|| {
-        let outputs = given(outputs, "the place for the outputs")?;
-        let inputs = given(inputs, "the inputs")?.into();
-        outputs.write(given(pipeline, PIPELINE)?.clocked.combinational(&inputs)?.into());
-        Ok(())
-    })
+    show(pipeline, inputs, outputs, Clocked::combinational)
 }
 
 /// The rising edge, with the inputs of the last `blysk_pipeline_combinational`.

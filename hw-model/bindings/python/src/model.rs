@@ -256,8 +256,8 @@ impl Model {
 
     /// The greatest errors against x^n, with every exponent and every representable x counted.
     ///
-    /// The first call goes through all of them on all cores, which cannot be interrupted and takes half a minute of
-    /// two cores for a preset (2^31 points); the model keeps what it found. It is what `blysk certify --preset` claims
+    /// The first call goes through all of them (2^31 points for a preset) on all cores, which cannot be interrupted; the
+    /// model keeps what it found. It is what `blysk certify --preset` claims
     /// before its certificate is checked. Raises `InputError` where there are too many points, or a format has more
     /// than 53 fraction bits.
     fn bound(&self, py: Python<'_>) -> PyResult<Claim> {

@@ -30,8 +30,8 @@ const COLUMNS: [Column; 11] = [
 /// The errors of every exponent as columns, a row for each: what `error_vs_n.csv` of `blysk report` holds.
 ///
 /// Errors are fractions of full intensity. `holds` and `full_range_holds` compare the greatest error on the epicentre
-/// and on [0, 1] with `bound`. By default corners and an even spread of x are seen, in a second; with `exhaustive`
-/// every representable x, in half a minute of two cores for a preset. `pandas.DataFrame(blysk.report(model))` is a
+/// and on [0, 1] with `bound`. By default corners and an even spread of x are seen; with `exhaustive` every
+/// representable x, on all cores. `pandas.DataFrame(blysk.report(model))` is a
 /// table.
 #[pyfunction]
 #[pyo3(signature = (model, *, bound=0.0067, exhaustive=false))]

@@ -4,7 +4,7 @@ use gltf::mesh::Mode;
 use gltf::{Node, Primitive, Semantic};
 
 use crate::import::error::ImportError;
-use crate::scene::Vector;
+use crate::scene::{GREATEST_COORDINATE, Vector};
 
 use super::accessor::{indices, triples};
 use super::material::Names;
@@ -74,7 +74,9 @@ fn primitive<'a>(
         positions: places.iter().map(|&place| moved(matrix, place)).collect(),
         normals: normals.unwrap_or_default().into_iter().map(|normal| turned(&turn, normal)).collect(),
     };
-    let far = |place: &Vector| place.coordinates().iter().any(|part| !(-1e9..=1e9).contains(part));
+    let far = |place: &Vector| {
+        place.coordinates().iter().any(|part| !(-GREATEST_COORDINATE..=GREATEST_COORDINATE).contains(part))
+    };
     if corners.positions.iter().any(far) {
         return Err(ImportError::Gltf("a position is out of range; use numbers from -1e9 to 1e9".into()));
     }

@@ -21,7 +21,7 @@ use super::vector::Vector;
 pub(crate) use statements::Statements;
 
 /// Coordinates beyond these are mistakes: squares of lengths must stay far from the ends of f64.
-pub(super) const GREATEST_COORDINATE: f64 = 1e9;
+pub(crate) const GREATEST_COORDINATE: f64 = 1e9;
 /// The most triangles of a scene: they take half a gigabyte.
 pub(crate) const MOST_TRIANGLES: usize = 4_000_000;
 /// The most materials of a file, and of a scene; an index of 16 bits, with room.
