@@ -172,6 +172,8 @@ fn file_name(path: &Path) -> String {
 
 /// The path of a file from a directory, which need not be there yet.
 fn relative(directory: &Path, file: &Path) -> anyhow::Result<String> {
+    // The directory of a mere name is the empty path.
+    let directory = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
     let [from, to] = [directory, file].map(std::path::absolute);
     let (from, to) = (plain(&from?), plain(&to?));
     let shared = from.iter().zip(&to).take_while(|(one, other)| one == other).count();
