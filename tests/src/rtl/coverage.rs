@@ -2,7 +2,7 @@
 //!
 //! A point of Verilator's is a line or branch that is executed, or a bit of a signal that rises or falls. Many bits of
 //! wires cannot change, as a width is the configuration's and a value is not: what can is taken from a long run of
-//! random cycles after the bundle's own run. The default bundle must reach [`LEAST`] of it; what it does not reach is
+//! random cycles after the bundle's own run. The default bundle must reach nearly all of it; what it does not reach is
 //! listed, in `coverage.txt` beside the RTL.
 
 use std::collections::BTreeMap;

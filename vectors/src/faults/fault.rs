@@ -70,7 +70,7 @@ pub enum Fault {
     /// The line that gives this register its value rounds by another mode: V, T(j), the divisor, or for the quotient
     /// the intensity.
     Rounding(Register, Rounding),
-    /// A register of this rank that [`is_data`].
+    /// A register of this rank that holds a number of the data path.
     Register(usize, Register, Defect),
     /// A choice.
     Logic(Logic),

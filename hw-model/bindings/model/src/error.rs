@@ -56,7 +56,7 @@ pub enum Error {
     },
 }
 
-/// The kind of an [`Error`], as a number that does not change from version to version.
+/// The kind of an [`enum@Error`], as a number that does not change from version to version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 #[repr(i32)]
