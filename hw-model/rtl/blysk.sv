@@ -18,7 +18,8 @@
 // RANKS is the latency in clock cycles; one result a cycle when nothing stalls. A configuration keeps
 // the polynomial, the tail, or both; what it does not keep is not built. It may have more ranks, as the package says:
 // behind the ROM (ROM_RANKS), inside the front end (FRONT_END_RANKS), and in each multiply-add before the multiplier,
-// behind it and behind the sum (OPERAND_RANKS, PRODUCT_RANKS, SUM_RANKS).
+// behind it and behind the sum (OPERAND_RANKS, PRODUCT_RANKS, SUM_RANKS). A register slice before the first rank or
+// behind the last (INPUT_SLICE, OUTPUT_SLICE) adds a cycle to the latency.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -26,7 +27,7 @@ module blysk #(
   parameter ROM_FILE = "rom.mem"
 ) (
   input  logic                                clk_i,
-  input  logic                                rst_i,        // synchronous
+  input  logic                                rst_i,
   // Request
   input  logic                                in_valid_i,
   output logic                                in_ready_o,
@@ -51,6 +52,14 @@ module blysk #(
   localparam int OPERAND_RANKS    = blysk_pkg::OPERAND_RANKS;
   localparam int PRODUCT_RANKS    = blysk_pkg::PRODUCT_RANKS;
   localparam int SUM_RANKS        = blysk_pkg::SUM_RANKS;
+  localparam int INPUT_SLICE      = blysk_pkg::INPUT_SLICE;
+  localparam int OUTPUT_SLICE     = blysk_pkg::OUTPUT_SLICE;
+  localparam int HANDSHAKE        = blysk_pkg::HANDSHAKE;
+  localparam int READY_IN_RESET   = blysk_pkg::READY_IN_RESET;
+  localparam int RESET_ACTIVE_LOW = blysk_pkg::RESET_ACTIVE_LOW;
+  localparam int ASYNCHRONOUS     = blysk_pkg::RESET_ASYNCHRONOUS;
+  localparam int ADDRESS_WIDTH    = blysk_pkg::ADDRESS_WIDTH;
+  localparam int OUTPUT_WIDTH     = blysk_pkg::OUTPUT_WIDTH;
   localparam int INPUT_WIDTH      = blysk_pkg::INPUT_WIDTH;
   localparam int X_WIDTH          = blysk_pkg::X_WIDTH;
   localparam int TAIL_A_WIDTH     = blysk_pkg::TAIL_A_WIDTH;
@@ -91,15 +100,44 @@ module blysk #(
   localparam int FRONT_END = COMPARE + FRONT_END_RANKS;
   localparam int LINE      = OPERAND_RANKS + PRODUCT_RANKS + SUM_RANKS + 1;
 
-  // ---- Handshake ----------------------------------------------------------------------------------
-  logic [RANKS-1:0] load;
+  // ---- Reset, active high -------------------------------------------------------------------------
+  logic rst;
+  assign rst = RESET_ACTIVE_LOW != 0 ? !rst_i : rst_i;
+
+  // ---- Handshake, and the slices before and behind the ranks --------------------------------------
+  logic [RANKS-1:0]         load;
+  logic                     request_valid, request_ready, slice_ready, result_valid, result_ready, result_ready_d;
+  logic [ADDRESS_WIDTH-1:0] request_address;
+  logic [INPUT_WIDTH-1:0]   request_x;
+  logic [OUTPUT_WIDTH-1:0]  result_intensity;
+  logic [STATUS_WIDTH-1:0]  result_status;
+
+  assign in_ready_o = slice_ready && (READY_IN_RESET != 0 || !rst);
+
+  blysk_ready_slice #(
+    .WIDTH(ADDRESS_WIDTH + INPUT_WIDTH), .STORED(INPUT_SLICE), .RESET_ASYNCHRONOUS(ASYNCHRONOUS)
+  ) input_slice (
+    .clk_i, .rst_i(rst),
+    .in_valid_i(in_valid_i && !rst), .in_ready_o(slice_ready), .in_ready_d_o(), .value_i({address_i, x_i}),
+    .out_valid_o(request_valid), .out_ready_i(request_ready), .value_o({request_address, request_x})
+  );
 
   blysk_handshake #(
-    .RANKS(RANKS)
+    .RANKS(RANKS), .KIND(HANDSHAKE), .READY_AHEAD(OUTPUT_SLICE), .RESET_ASYNCHRONOUS(ASYNCHRONOUS)
   ) handshake (
-    .clk_i, .rst_i,
-    .in_valid_i, .in_ready_o, .out_valid_o, .out_ready_i,
+    .clk_i, .rst_i(rst),
+    .in_valid_i(request_valid), .in_ready_o(request_ready),
+    .out_valid_o(result_valid), .out_ready_i(result_ready), .out_ready_d_i(result_ready_d),
     .load_o(load)
+  );
+
+  blysk_ready_slice #(
+    .WIDTH(STATUS_WIDTH + OUTPUT_WIDTH), .STORED(OUTPUT_SLICE), .RESET_ASYNCHRONOUS(ASYNCHRONOUS)
+  ) output_slice (
+    .clk_i, .rst_i(rst),
+    .in_valid_i(result_valid), .in_ready_o(result_ready), .in_ready_d_o(result_ready_d),
+    .value_i({result_status, result_intensity}),
+    .out_valid_o, .out_ready_i, .value_o({status_o, intensity_o})
   );
 
   // ---- Rank 0: fetch ------------------------------------------------------------------------------
@@ -115,13 +153,13 @@ module blysk #(
   end
 
   always_ff @(posedge clk_i) begin
-    if (load[0]) x_q <= x_i;
+    if (load[0]) x_q <= request_x;
   end
 
   blysk_rom #(
     .ROM_FILE(ROM_FILE)
   ) rom (
-    .clk_i, .load_i(load[ROM_RANKS:0]), .address_i, .no_word_o(no_word), .fields_o(word)
+    .clk_i, .load_i(load[ROM_RANKS:0]), .address_i(request_address), .no_word_o(no_word), .fields_o(word)
   );
 
   // A register behind the ROM's own takes x and status along.
@@ -300,7 +338,7 @@ module blysk #(
     .clk_i, .load_i(load[RANKS-1]),
     .region_i(region_waited), .status_i(status_waited),
     .t_i(t_waited), .remainder_i(remainder_waited), .digits_i(digits_waited),
-    .intensity_o, .status_o
+    .intensity_o(result_intensity), .status_o(result_status)
   );
 
 endmodule

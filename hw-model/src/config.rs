@@ -12,6 +12,7 @@ use crate::domain::{self, Presented};
 use crate::exponents::Exponents;
 use crate::fit::{Hardware, Levels, Method};
 use crate::format::{MAX_WIDTH, QFormat};
+use crate::handshake::{Control, Handshake, Reset};
 use crate::names;
 use crate::pipelining::Pipelining;
 use crate::registers::{CUBIC, MAX_SEGMENTS, Register};
@@ -120,6 +121,12 @@ pub struct Config {
     /// Ranks of registers beyond the least.
     #[serde(default, skip_serializing_if = "Pipelining::is_least")]
     pub pipelining: Pipelining,
+    /// The rule by which ranks advance.
+    #[serde(default, skip_serializing_if = "Handshake::is_usual")]
+    pub handshake: Handshake,
+    /// How a reset comes.
+    #[serde(default, skip_serializing_if = "Reset::is_usual")]
+    pub reset: Reset,
 }
 
 fn default_q() -> f64 {
@@ -200,6 +207,12 @@ impl Config {
         text
     }
 
+    /// What stands around the data path.
+    #[must_use]
+    pub const fn control(&self) -> Control {
+        Control { handshake: self.handshake, reset: self.reset, slice: self.pipelining.ready_slice }
+    }
+
     /// Q and G.
     ///
     /// # Errors
@@ -227,6 +240,7 @@ impl Config {
         domain::check(&self.domain, &self.exponents, self.tail != Tail::Zero)
             .or_else(|problem| wrong("domain", problem))?;
         self.pipelining.check().or_else(|problem| wrong("pipelining", problem))?;
+        self.control().check().or_else(|problem| wrong("handshake", problem))?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }

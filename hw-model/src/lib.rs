@@ -33,6 +33,7 @@ pub mod domain;
 pub mod exponents;
 pub mod fit;
 pub mod format;
+pub mod handshake;
 pub mod highlight;
 pub mod names;
 pub mod pipelining;

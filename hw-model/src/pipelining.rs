@@ -13,6 +13,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::handshake::ReadySlice;
+
 /// Ranks of registers beyond the least, by the part that they cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -28,6 +30,9 @@ pub struct Pipelining {
     pub product: u32,
     /// A register behind each sum, before it is rounded.
     pub sum: bool,
+    /// A register slice of two entries at one end, which takes ready off every path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ready_slice: Option<ReadySlice>,
 }
 
 /// Bits of the pieces in which operands are multiplied where the product takes two ranks: what a block multiplies.

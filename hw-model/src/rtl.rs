@@ -1,16 +1,16 @@
 //! The data path in SystemVerilog, file for file: what `hw-model/rtl/` holds, as text.
 //!
-//! | Rust                       | RTL                                         |
-//! |----------------------------|---------------------------------------------|
-//! | `rounding.rs`              | `blysk_round_shift.sv`                      |
-//! | `rom.rs`                   | `blysk_rom.sv`                              |
-//! | `datapath/front_end.rs`    | `blysk_front_end.sv`                        |
-//! | `datapath/stage.rs`        | `blysk_stage.sv`                            |
-//! | `datapath/tail.rs`         | `blysk_tail.sv`, `blysk_tail_digits.sv`     |
-//! | `datapath/clamp.rs`        | `blysk_clamp.sv`                            |
-//! | `datapath/ranks.rs`        | `blysk.sv`, `blysk_delay.sv`                |
-//! | handshake of the simulator | `blysk_handshake.sv`                        |
-//! | no arithmetic: other names | `blysk_axis.sv`                             |
+//! | Rust                       | RTL                                          |
+//! |----------------------------|----------------------------------------------|
+//! | `rounding.rs`              | `blysk_round_shift.sv`                       |
+//! | `rom.rs`                   | `blysk_rom.sv`                               |
+//! | `datapath/front_end.rs`    | `blysk_front_end.sv`                         |
+//! | `datapath/stage.rs`        | `blysk_stage.sv`                             |
+//! | `datapath/tail.rs`         | `blysk_tail.sv`, `blysk_tail_digits.sv`      |
+//! | `datapath/clamp.rs`        | `blysk_clamp.sv`                             |
+//! | `datapath/ranks.rs`        | `blysk.sv`, `blysk_delay.sv`                 |
+//! | handshake of the simulator | `blysk_handshake.sv`, `blysk_ready_slice.sv` |
+//! | no arithmetic: other names | `blysk_axis.sv`                              |
 //!
 //! Widths and constants of one configuration are in a package that is generated beside them.
 
@@ -36,10 +36,11 @@ pub const TESTBENCH: &str = "blysk_tb.sv";
 pub const WRAPPER: Source = source!("blysk_axis.sv");
 
 /// Every source file of the pipeline, in an order in which each names only what stands before it.
-pub const SOURCES: [Source; 10] = [
+pub const SOURCES: [Source; 11] = [
     source!("blysk_round_shift.sv"),
     source!("blysk_delay.sv"),
     source!("blysk_handshake.sv"),
+    source!("blysk_ready_slice.sv"),
     source!("blysk_rom.sv"),
     source!("blysk_front_end.sv"),
     source!("blysk_stage.sv"),

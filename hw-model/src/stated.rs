@@ -238,7 +238,7 @@ impl Hardware {
         Self {
             multiplier_bits: v * multiplicands + width(formats[Register::TailB]) * input,
             rom_bits: word * design.rom().depth() as u64,
-            latency: design.datapath().rank_count() as u64,
+            latency: design.datapath().latency() as u64,
             register_bits: ORDER.into_iter().map(|register| width(formats[register])).sum(),
         }
     }

@@ -8,8 +8,8 @@
 //! let mut pipeline = Pipeline::new(design.datapath());
 //! let (address, x) = (63, 8_304_722); // n = 64, x = 0.99
 //! let request = Inputs { in_valid: true, address, x, out_ready: true, ..Inputs::default() };
-//! for _ in 0..design.datapath().rank_count() {
-//!     assert!(!pipeline.tick(&request).out_valid); // as many cycles as there are ranks
+//! for _ in 0..design.datapath().latency() {
+//!     assert!(!pipeline.tick(&request).out_valid); // one cycle for each rank of registers
 //! }
 //! assert_eq!(pipeline.tick(&request).intensity, design.intensity_bits(address, x)?);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -25,6 +25,7 @@ pub mod agreement;
 pub mod coverage;
 pub mod pipeline;
 pub mod run;
+pub mod slice;
 pub mod stream;
 pub mod trace;
 pub mod waves;

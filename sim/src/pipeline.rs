@@ -9,19 +9,26 @@
 //! 2. A rank advances when it is empty or the rank after it advances; the last one when it is empty or
 //!    `out_ready` is high. So bubbles collapse, and a stall holds every bit.
 //! 3. `out_valid` depends on registers only, never on `out_ready` or `in_valid`.
-//! 4. Reset is synchronous and clears the valid flags; `in_ready` is low while it is high. What was
-//!    in flight is lost.
+//! 4. Reset clears the valid flags; `in_ready` is low while it is high. What was in flight is lost.
 //! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
 //!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
+//!
+//! A configuration may have another rule than 2 ([`Handshake`]), another reset than that at the edge ([`Reset`]), and a
+//! register slice at one end ([`Slice`]).
+//!
+//! [`Reset`]: hw_model::handshake::Reset
 
 use std::ops::Deref;
 
 use hw_model::datapath::{Datapath, Flight, Logic, Requests, Signals, Status};
+use hw_model::handshake::{Control, Handshake, ReadySlice};
+
+use crate::slice::Slice;
 
 /// What drives the pipeline during one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Inputs {
-    /// Clears every valid flag at the edge.
+    /// Clears every valid flag, at the edge or at once; whatever the level of the port is that says so.
     pub reset: bool,
     /// Address and x are a request.
     pub in_valid: bool,
@@ -65,6 +72,7 @@ pub struct Ranks<'a> {
     places: Places,
     flights: &'a [Flight],
     remains: &'a Remains,
+    slices: &'a Slices,
 }
 
 impl<'a> Ranks<'a> {
@@ -103,10 +111,16 @@ impl<'a> Ranks<'a> {
         self.places.valid
     }
 
-    /// The number of valid flags that are set.
+    /// The register slices around the ranks.
     #[must_use]
-    pub const fn in_flight(&self) -> u32 {
-        self.places.valid.count_ones()
+    pub const fn slices(&self) -> &Slices {
+        self.slices
+    }
+
+    /// True once the ports of the result have shown one: before, hardware shows unknown values there.
+    #[must_use]
+    pub fn result_loaded(&self) -> bool {
+        self.slices.output.map_or_else(|| self.last().loaded, |slice| slice.head.is_some())
     }
 }
 
@@ -148,6 +162,37 @@ impl Remains {
     }
 }
 
+/// The register slices that a configuration has: at most one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Slices {
+    /// Address and x, before the first rank.
+    pub input: Option<Slice<(u32, i64)>>,
+    /// Intensity and status, behind the last rank.
+    pub output: Option<Slice<(i64, Status)>>,
+}
+
+impl Slices {
+    fn of(control: &Control) -> Self {
+        Self {
+            input: (control.slice == Some(ReadySlice::Input)).then(Slice::default),
+            output: (control.slice == Some(ReadySlice::Output)).then(Slice::default),
+        }
+    }
+
+    fn cleared(&self) -> Self {
+        Self {
+            input: self.input.map(|slice| slice.cleared()),
+            output: self.output.map(|slice| slice.cleared()),
+        }
+    }
+
+    /// The number of requests and results that wait in them.
+    #[must_use]
+    pub fn in_flight(&self) -> u32 {
+        self.input.map_or(0, |slice| slice.in_flight()) + self.output.map_or(0, |slice| slice.in_flight())
+    }
+}
+
 /// What the rising edge brings.
 #[derive(Debug, Clone, Copy, Default)]
 struct Edge {
@@ -183,6 +228,12 @@ pub struct Clocked<D> {
     datapath: D,
     logic: Logic,
     ranks: usize,
+    control: Control,
+    /// True where the rules are those above and no slice stands anywhere.
+    plain: bool,
+    slices_q: Slices,
+    /// The same behind the next edge, were there no reset.
+    slices_d: Slices,
     /// Every rank's bit, and the last one's.
     all: u128,
     last: u128,
@@ -205,10 +256,15 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
     #[must_use]
     pub fn new(datapath: D) -> Self {
         let ranks = datapath.rank_count();
+        let control = *datapath.control();
         debug_assert!(ranks < 128);
         Self {
             logic: datapath.logic(),
             ranks,
+            control,
+            plain: control == Control::default(),
+            slices_q: Slices::of(&control),
+            slices_d: Slices::of(&control),
             all: (1 << ranks) - 1,
             last: 1 << (ranks - 1),
             places_q: Places { valid: 0, left: 0, before: 0 },
@@ -239,14 +295,26 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
             self.logic.enter(&self.datapath, address, x, &mut self.flights[place]);
         }
         self.looked_at = self.entered;
-        let Self { datapath, ranks, places_q: places, flights, remains, .. } = self;
-        Ranks { datapath, ranks: *ranks, places: *places, flights, remains }
+        let Self { datapath, ranks, places_q: places, flights, remains, slices_q: slices, .. } = self;
+        Ranks { datapath, ranks: *ranks, places: *places, flights, remains, slices }
     }
 
-    /// True when no rank holds a request.
+    /// The register slices as they are before the next edge.
     #[must_use]
-    pub const fn is_empty(&self) -> bool {
-        self.places_q.valid == 0
+    pub const fn slices(&self) -> &Slices {
+        &self.slices_q
+    }
+
+    /// True when no rank and no slice holds a request.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.in_flight() == 0
+    }
+
+    /// The number of requests under way, in ranks and in slices.
+    #[must_use]
+    pub fn in_flight(&self) -> u32 {
+        self.places_q.valid.count_ones() + self.slices_q.in_flight()
     }
 
     /// One clock cycle: what an RTL simulator shows at the rising edge, and then the edge.
@@ -271,10 +339,82 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         self.rise(self.edge_d);
     }
 
-    /// The combinational phase. Rule 2, written out: a rank advances when the output is taken or any rank from it on is
-    /// empty, that is, when it is not above the last empty one.
+    /// The combinational phase: of the ranks alone, or with what else stands around them.
     #[inline(always)]
     fn cycle(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
+        if self.plain { self.cycle_of_ranks(inputs) } else { self.cycle_in_control(inputs) }
+    }
+
+    /// The ranks between the slices, where there are any. Reset and what is presented are told to both.
+    #[inline(never)]
+    fn cycle_in_control(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
+        let Control { handshake, reset, .. } = self.control;
+        if inputs.reset && reset.is_asynchronous() {
+            self.clear();
+        }
+        let Slices { input, output } = self.slices_q;
+        let mut of_ranks = *inputs;
+        if let Some(slice) = input {
+            of_ranks.in_valid = slice.head_valid;
+            (of_ranks.address, of_ranks.x) = slice.head.unwrap_or_default();
+        }
+        if let Some(slice) = output {
+            of_ranks.out_ready = !slice.spare_valid;
+        }
+        let (ranks, edge) = match handshake {
+            Handshake::ValidReady => self.cycle_of_ranks(&of_ranks),
+            Handshake::Enable => self.cycle_together(&of_ranks, of_ranks.out_ready),
+            Handshake::None => self.cycle_together(&of_ranks, true),
+        };
+        let mut outputs = ranks;
+        // The ranks' own ready, which a reset does not hide from the slice before them.
+        let advances = self.advances(&of_ranks);
+        outputs.in_ready = (!inputs.reset || reset.ready) && input.map_or(advances, |slice| !slice.spare_valid);
+        if let Some(slice) = input {
+            let offered = (inputs.in_valid && !inputs.reset).then_some((inputs.address, inputs.x));
+            self.slices_d.input = Some(slice.next(offered, advances));
+        }
+        if let Some(slice) = output {
+            let offered = ranks.out_valid.then_some((ranks.intensity, ranks.status));
+            self.slices_d.output = Some(slice.next(offered, inputs.out_ready));
+            let (intensity, status) = slice.head.unwrap_or_default();
+            outputs = Outputs { out_valid: slice.head_valid, intensity, status, ..outputs };
+        }
+        (outputs, edge)
+    }
+
+    /// Whether the first rank advances.
+    fn advances(&self, inputs: &Inputs) -> bool {
+        match self.control.handshake {
+            Handshake::ValidReady => inputs.out_ready || self.places_q.valid != self.all,
+            Handshake::Enable => inputs.out_ready,
+            Handshake::None => true,
+        }
+    }
+
+    /// Every rank advances, or none does.
+    fn cycle_together(&mut self, inputs: &Inputs, enable: bool) -> (Outputs, Edge) {
+        let Inputs { reset, address, x, .. } = *inputs;
+        let valid = self.places_q.valid;
+        let request = inputs.in_valid && !reset;
+        let offered = (valid << 1 | u128::from(request)) & self.all;
+        let out_valid = valid & self.last != 0;
+        let (intensity, status) = if out_valid { self.next_result() } else { self.last_result() };
+        let edge = Edge {
+            valid: if enable { offered } else { valid },
+            reset,
+            takes: request && enable,
+            leaves: out_valid && enable,
+            address,
+            x,
+        };
+        (Outputs { in_ready: enable && !reset, out_valid, intensity, status }, edge)
+    }
+
+    /// The combinational phase of the ranks alone. Rule 2, written out: a rank advances when the output is taken or any rank from it on is
+    /// empty, that is, when it is not above the last empty one.
+    #[inline(always)]
+    fn cycle_of_ranks(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
         let Inputs { reset, address, x, .. } = *inputs;
         let valid = self.places_q.valid;
         // A full pipeline that moves stays full.
@@ -312,8 +452,11 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         }
         self.places_q.valid = edge.valid;
         self.places_q.left += u64::from(edge.leaves);
+        if !self.plain {
+            self.slices_q = self.slices_d;
+        }
         if edge.reset {
-            self.reset();
+            self.clear();
         }
     }
 
@@ -356,9 +499,10 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         self.remains.shown(last).map_or_else(Default::default, |flight| (flight.intensity(), flight.status()))
     }
 
-    /// The flags become 0, and all requests are lost; what ranks show of them stays.
+    /// The flags become 0, and all requests are lost; what ranks show of them stays. Doing it again changes nothing.
     #[cold]
-    fn reset(&mut self) {
+    fn clear(&mut self) {
+        self.slices_q = self.slices_q.cleared();
         for rank in 0..self.ranks {
             if let Some(number) = self.places_q.shown(rank) {
                 let (address, x) = self.request(number);

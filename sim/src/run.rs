@@ -82,8 +82,9 @@ impl Counts {
         (self.results > 0).then(|| self.cycles as f64 * 1e6 / self.results as f64)
     }
 
-    fn count(&mut self, cycle: &Cycle<'_>) {
-        let Cycle { inputs, outputs, ranks, .. } = cycle;
+    /// `under_way` is the number of requests in the pipeline before the cycle.
+    fn count(&mut self, cycle: &Cycle<'_>, under_way: u32) {
+        let Cycle { inputs, outputs, .. } = cycle;
         self.cycles += 1;
         let taken = inputs.in_valid && outputs.in_ready;
         let delivered = outputs.out_valid && inputs.out_ready && !inputs.reset;
@@ -98,7 +99,7 @@ impl Counts {
         self.results += u64::from(delivered);
         self.stalls += u64::from(outputs.out_valid && !inputs.out_ready && !inputs.reset);
         if inputs.reset {
-            self.lost_to_reset += u64::from(ranks.in_flight());
+            self.lost_to_reset += u64::from(under_way);
         }
     }
 }
@@ -122,10 +123,11 @@ pub fn run<E>(
         }
         waiting.extend(row.and_then(|row| row.request));
         let inputs = inputs(row, waiting.front().copied());
+        let under_way = pipeline.in_flight();
         let outputs = pipeline.combinational(&inputs);
         let cycle = Cycle { index: counts.cycles, inputs: &inputs, outputs: &outputs, ranks: pipeline.ranks() };
         observe(&cycle)?;
-        counts.count(&cycle);
+        counts.count(&cycle, under_way);
         pipeline.clock();
         if inputs.in_valid && outputs.in_ready {
             waiting.pop_front();

@@ -41,7 +41,7 @@ impl<W: Write> TraceWriter<W> {
     pub fn cycle(&mut self, cycle: &Cycle<'_>) -> io::Result<()> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
         let flag = |flag: bool| i64::from(flag);
-        let shown = cycle.ranks.last().loaded;
+        let shown = cycle.ranks.result_loaded();
         let ports = [
             Some(cycle.index as i64),
             Some(flag(inputs.reset)),

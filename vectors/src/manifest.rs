@@ -203,7 +203,7 @@ impl Hardware {
             Place::Constant { bits } => Some(RomConstant { name: field.name.to_string(), format: field.format, bits }),
         });
         Self {
-            latency: datapath.rank_count() as u32,
+            latency: datapath.latency() as u32,
             port_widths: named(port_widths),
             status_flags: named(flags),
             rom_constants: constants.collect(),

@@ -18,7 +18,7 @@ package [[ package ]] is
 <%- endif %>
     port (
       clk_i       : in  std_logic;
-      rst_i       : in  std_logic;  -- synchronous
+      rst_i       : in  std_logic;  -- [[ reset ]]
       -- Request
       in_valid_i  : in  std_logic;
       in_ready_o  : out std_logic;

@@ -7,7 +7,7 @@
 
 module [[ name ]] (
   input logic                                clk_i,
-  input logic                                rst_i,
+  input logic                                [[ reset_port ]],
   input logic                                in_valid_i,
   input logic                                in_ready_o,
   input logic [blysk_pkg::ADDRESS_WIDTH-1:0] address_i,
@@ -30,7 +30,7 @@ module [[ name ]] (
     .ADDRESS_WIDTH(blysk_pkg::ADDRESS_WIDTH), .INPUT_WIDTH(blysk_pkg::INPUT_WIDTH),
     .OUTPUT_WIDTH(blysk_pkg::OUTPUT_WIDTH), .STATUS_WIDTH(blysk_pkg::STATUS_WIDTH)
   ) judge (
-    .clk_i, .rst_i, .in_valid_i, .in_ready_o, .address_i, .x_i, .out_valid_o, .out_ready_i, .intensity_o, .status_o,
+    .clk_i, .rst_i[[ reset ]], .in_valid_i, .in_ready_o, .address_i, .x_i, .out_valid_o, .out_ready_i, .intensity_o, .status_o,
     .registers_i(registers)
   );
 

@@ -66,6 +66,11 @@ module blysk_tb;
   // Ranks that the last edge loaded, and those that any edge has.
   logic [RANKS-1:0] loads, loaded;
   integer           vector_of [0:RANKS-1];
+<%- if rules.slice.is_some() %>
+  // The register slice: the vectors in its head and its spare entry, and whether an edge has loaded them.
+  logic             head_held, spare_held, head_loaded, spare_loaded, comes, moves, follows;
+  integer           head_of, spare_of;
+<%- endif %>
   integer           sent, received, cycle, stalls, bubbles, resets, reset_left, idle, rank;
   integer           words_compared, failures;
   logic [2:0]       mode;
@@ -79,7 +84,7 @@ module blysk_tb;
 <% include "tb_clock.sv" %>
 
   [[ dut ]] dut (
-    .clk_i(clk), .rst_i(rst),
+    .clk_i(clk), .[[ rules.reset_port ]]([[ rules.reset ]]),
     .in_valid_i(in_valid), .in_ready_o(in_ready), .address_i(address), .x_i(x),
     .out_valid_o(out_valid), .out_ready_i(out_ready), .intensity_o(intensity), .status_o(status)
   );
@@ -95,6 +100,9 @@ module blysk_tb;
   initial begin
     rst = 1'b1; in_valid = 1'b0; address = '0; x = '0; out_ready = 1'b0;
     held = '0; loads = '0; loaded = '0; waits = 1'b0;
+<%- if rules.slice.is_some() %>
+    {head_held, spare_held, head_loaded, spare_loaded} = '0; head_of = 0; spare_of = 0;
+<%- endif %>
     sent = 0; received = 0; cycle = 0; stalls = 0; bubbles = 0; resets = 0; idle = 0; mode = '0;
     words_compared = 0; failures = 0; ended = 1'b0;
     reset_left = 2;
@@ -208,16 +216,28 @@ module blysk_tb;
       words_compared = words_compared + [[ rank.count ]];
     end
 <%- endfor %>
+<%- if rules.slice.is_some() %>
+    if (head_loaded && !ended) begin
+      if (dut.[[ rules.path ]].head_q !== [[ rules.word("head_of") ]] && !ended)
+        fail(head_of, 1'b1, "[[ rules.name ]].head", 64'(dut.[[ rules.path ]].head_q), 64'([[ rules.word("head_of") ]]), [[ rules.width ]], 0, 0);
+      words_compared = words_compared + 1;
+    end
+    if (spare_loaded && !ended) begin
+      if (dut.[[ rules.path ]].spare_q !== [[ rules.word("spare_of") ]] && !ended)
+        fail(spare_of, 1'b1, "[[ rules.name ]].spare", 64'(dut.[[ rules.path ]].spare_q), 64'([[ rules.word("spare_of") ]]), [[ rules.width ]], 0, 0);
+      words_compared = words_compared + 1;
+    end
+<%- endif %>
   endtask
 <%- endif %>
 
   task automatic compare_result;
     integer index;
-    index = vector_of[RANKS-1];
+    index = [[ rules.shown_vector ]];
     if (intensity !== expected[index][OUTPUT-1:0] && !ended)
-      fail(index, loads[RANKS-1], "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
+      fail(index, [[ rules.shown_loads ]], "[[ last ]].intensity", 64'(intensity), 64'(expected[index][OUTPUT-1:0]), OUTPUT, 0, [[ intensity.fraction ]]);
     if (status !== expected[index][STATUS+OUTPUT-1:OUTPUT] && !ended)
-      fail(index, loads[RANKS-1], "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
+      fail(index, [[ rules.shown_loads ]], "[[ last ]].status", 64'(status), 64'(expected[index][STATUS+OUTPUT-1:OUTPUT]), STATUS, 0, 0);
     words_compared = words_compared + 2;
     if (out_ready && !rst) begin
       if (index != received % VECTORS && !ended) begin
@@ -230,20 +250,41 @@ module blysk_tb;
   endtask
 
   task automatic compare_handshake;
-    advance[RANKS-1] = !held[RANKS-1] || out_ready;
+<%- if rules.asynchronous %>
+    // The reset is there already.
+    if (rst) begin
+      held = '0;
+<%- if rules.slice.is_some() %>
+      {head_held, spare_held} = '0;
+<%- endif %>
+    end
+<%- endif %>
+<%- match rules.handshake %>
+<%- when Handshake::ValidReady %>
+    advance[RANKS-1] = !held[RANKS-1] || [[ rules.taken ]];
     for (rank = RANKS - 2; rank >= 0; rank = rank - 1) advance[rank] = !held[rank] || advance[rank+1];
-    expect_ready = advance[0] && !rst;
+<%- when Handshake::Enable %>
+    advance = {RANKS{out_ready}};
+<%- when Handshake::None %>
+    advance = '1;
+<%- endmatch %>
+    expect_ready = [[ rules.ready ]];
     if (cycle > 0) begin
       if (in_ready !== expect_ready && !ended)
-        fail_port("in_ready_o", in_ready, expect_ready, "a rank advances when it is empty or the next one advances");
-      if (out_valid !== held[RANKS-1] && !ended)
-        fail_port("out_valid_o", out_valid, held[RANKS-1], "the latency is [[ ranks ]] cycles, and more where it is stalled");
+        fail_port("in_ready_o", in_ready, expect_ready, "[[ rules.rule ]]");
+      if (out_valid !== [[ rules.shown ]] && !ended)
+        fail_port("out_valid_o", out_valid, [[ rules.shown ]], "the latency is [[ latency ]] cycles, and more where it is stalled");
 <%- if white_box %>
       for (rank = 0; rank < RANKS; rank = rank + 1) begin
         if (dut.handshake.valid_q[rank] !== held[rank] && !ended)
           fail_port($sformatf("the valid flag of rank %0d", rank), dut.handshake.valid_q[rank], held[rank],
             "what a rank holds comes from the rank before it, when it advances");
       end
+<%- if rules.slice.is_some() %>
+      if (dut.[[ rules.path ]].valid_q !== {spare_held, head_held} && !ended)
+        fail_port("a valid flag of the [[ rules.name ]]", ^dut.[[ rules.path ]].valid_q, spare_held ^ head_held,
+          "its head is full when one waits, its spare entry when two do");
+<%- endif %>
 <%- endif %>
     end
   endtask
@@ -252,9 +293,24 @@ module blysk_tb;
   // do so too, and only their valid flags are cleared.
   task automatic step;
     loads = '0;
-    waits = in_valid && !advance[0] && !rst;
-    if (held[RANKS-1] && !out_ready && !rst) stalls = stalls + 1;
+    waits = in_valid && ![[ rules.takes ]] && !rst;
+    if ([[ rules.shown ]] && !out_ready && !rst) stalls = stalls + 1;
     if (expect_ready && !in_valid && sent < total) bubbles = bubbles + 1;
+<%- if rules.slice == Some(ReadySlice::Output) %>
+    comes = held[RANKS-1] && !spare_held;
+    moves = out_ready || !head_held;
+    follows = spare_held || comes;
+    if (moves && follows) begin
+      head_of = spare_held ? spare_of : vector_of[RANKS-1];
+      head_loaded = 1'b1;
+    end
+    if (!moves && comes) begin
+      spare_of = vector_of[RANKS-1];
+      spare_loaded = 1'b1;
+    end
+    head_held = !moves || follows;
+    spare_held = !moves && follows;
+<%- endif %>
     for (rank = RANKS - 1; rank > 0; rank = rank - 1) begin
       if (advance[rank]) begin
         held[rank]  = held[rank-1];
@@ -262,6 +318,27 @@ module blysk_tb;
         if (held[rank-1]) vector_of[rank] = vector_of[rank-1];
       end
     end
+<%- if rules.slice == Some(ReadySlice::Input) %>
+    if (advance[0]) begin
+      held[0]  = head_held && !rst;
+      loads[0] = head_held && !rst;
+      if (head_held && !rst) vector_of[0] = head_of;
+    end
+    comes = in_valid && !rst && !spare_held;
+    moves = advance[0] || !head_held;
+    follows = spare_held || comes;
+    if (moves && follows) begin
+      head_of = spare_held ? spare_of : sent % VECTORS;
+      head_loaded = 1'b1;
+    end
+    if (!moves && comes) begin
+      spare_of = sent % VECTORS;
+      spare_loaded = 1'b1;
+    end
+    if (comes) sent = sent + 1;
+    head_held = !moves || follows;
+    spare_held = !moves && follows;
+<%- else %>
     if (advance[0]) begin
       held[0]  = in_valid && !rst;
       loads[0] = in_valid && !rst;
@@ -270,9 +347,13 @@ module blysk_tb;
         sent = sent + 1;
       end
     end
+<%- endif %>
     loaded = loaded | loads;
     if (rst) begin
       held = '0;
+<%- if rules.slice.is_some() %>
+      {head_held, spare_held} = '0;
+<%- endif %>
       // What was in flight is lost, and sent again.
       sent = received;
     end
@@ -290,7 +371,11 @@ module blysk_tb;
       resets = resets + 1;
     end
     rst <= reset_left > 0;
+<%- if rules.handshake == Handshake::None %>
+    out_ready <= 1'b1;
+<%- else %>
     out_ready <= !((mode[0] || mode[2]) && random[0]);
+<%- endif %>
     if (waits) begin
       // A request that was not taken stays.
     end else if (sent < total && !(mode[2] ? random[4:1] == 0 : mode[1] && random[1])) begin
@@ -309,7 +394,7 @@ module blysk_tb;
 <%- if white_box %>
       if (!ended) compare_registers;
 <%- endif %>
-      if (held[RANKS-1] && !ended) compare_result;
+      if ([[ rules.shown ]] && !ended) compare_result;
       step;
       drive;
       cycle = cycle + 1;
@@ -320,7 +405,7 @@ module blysk_tb;
         $display("%0d cycles, %0d stalls, %0d bubbles, %0d resets, %0d values compared",
           cycle, stalls, bubbles, resets, words_compared);
         if (failures != 0) $display("FAIL %0d values differ; the first: %0s", failures, first_failure);
-        else if (!plain && (stalls == 0 || bubbles == 0 || resets == 0))
+        else if (!plain && (<% if rules.handshake != Handshake::None %>stalls == 0 || <% endif %>bubbles == 0 || resets == 0))
           $display("FAIL a run without stalls, bubbles or resets shows little; use another +seed");
         else $display("PASS %0d vectors", VECTORS);
         stop;

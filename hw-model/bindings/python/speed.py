@@ -1,6 +1,10 @@
-"""How fast the wheel answers, beside the Rust engine in the same run: python speed.py [PRESET …], in the clone.
+"""How fast the wheel answers, beside the Rust engine and the RTL in Verilator in the same run.
 
-Builds `hw-model/bindings/model/examples/speed.rs` with cargo's profile release, which is the wheel's.
+    python speed.py [PRESET …]            in the clone: a table in Markdown, that of docs/VERIFICATION.md
+    python speed.py --memory              what 10⁸ samples hold
+
+Builds `hw-model/bindings/model/examples/speed.rs` and `tests/src/bin/verilated.rs` with cargo's profile release, which
+is the wheel's. All times are those of the processor, and of nine runs (of Verilator five) the fastest counts.
 """
 
 import json
@@ -57,23 +61,64 @@ def measure(preset):
     }
 
 
-def main(presets):
-    """Prints a table for each preset."""
-    command = "cargo run --release --locked --quiet -p model --example speed --".split()
-    told = subprocess.run([*command, *presets], stdout=subprocess.PIPE, check=True, cwd=Path(__file__).parent)
-    for line in told.stdout.decode().splitlines():
-        rust = json.loads(line)
-        python = measure(rust["preset"])
-        print(f"{rust['preset']}: Rust, Python")
-        for name, what in (("one", "one address"), ("each", "an address for each")):
-            print(f"  {what:22} {rust[name] / 1e6:8.1f} {python[name] / 1e6:8.1f} million samples a second")
-        print(f"  {'the block engine':22} {rust['block'] / 1e6:8.1f}          million samples a second")
-        print(f"  {'real numbers':22}          {python['highlight'] / 1e6:8.1f} million samples a second")
-        for name in ("scalar_ns", "registers_ns", "tick_ns"):
-            print(f"  {name.removesuffix('_ns'):22} {rust[name]:8.0f} {python[name]:8.0f} nanoseconds a call")
-        print(f"  {'cycles in arrays':22}          {python['run'] / 1e6:8.1f} million cycles a second")
-    print(f"most memory held: {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB")
+def told(command, presets):
+    """What a program of the clone says of each preset, in lines of JSON."""
+    run = subprocess.run(
+        ["cargo", "run", "--release", "--locked", "--quiet", *command, "--", *presets],
+        stdout=subprocess.PIPE,
+        check=True,
+        cwd=Path(__file__).parent,
+    )
+    return [json.loads(line) for line in run.stdout.decode().splitlines()]
+
+
+def row(*cells):
+    """Prints a line of the table."""
+    print("| " + " | ".join(cells) + " |", flush=True)
+
+
+def speeds(presets):
+    """Prints the table."""
+    row("preset", "what", "Rust", "Python", "Python to Rust", "beside the RTL in Verilator")
+    row(*["---"] * 6)
+    for preset in presets:
+        [rtl] = told(["--bin", "verilated"], [preset])
+        [rust] = told(["--package", "model", "--example", "speed"], [preset])
+        python, name = measure(preset), f"`{preset}`"
+
+        def rates(what, unit, ours, theirs=None):
+            # A sample of the RTL is a cycle.
+            there, ratio = (f"{theirs / 1e6:.1f} M {unit}/s", f"{ours / theirs:.2f}") if theirs else ("", "")
+            row(name, what, there, f"{ours / 1e6:.1f} M {unit}/s", ratio, f"{ours / rtl['cycles']:.2g} x")
+
+        rates("array, one address", "samples", python["one"], rust["block"])
+        rates("array, an address for each", "samples", python["each"], rust["each"])
+        rates("`highlight`, real numbers", "samples", python["highlight"])
+        rates("`run`, cycles in arrays", "cycles", python["run"], 1e9 / rust["tick_ns"])
+        for call, what in (("scalar", "`evaluate`"), ("registers", "`registers`"), ("tick", "`tick`")):
+            ours, theirs = python[f"{call}_ns"], rust[f"{call}_ns"]
+            beside = f"{1e9 / ours / rtl['cycles']:.2g} x"
+            row(name, f"{what}, a call", f"{theirs:.0f} ns", f"{ours:.0f} ns", f"{ours / theirs:.1f}", beside)
+        row(name, "the RTL in Verilator", "", "", "", f"{rtl['cycles'] / 1e6:.1f} M cycles/s")
+
+
+def memory():
+    """Prints what an array of 10⁸ samples and its answers hold."""
+
+    def held():
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss >> 10
+
+    model = blysk.Model.preset("compact")
+    x = np.arange(10**8)
+    x %= 1 << 23
+    before = held()
+    intensity, status = model.evaluate(63, x)
+    sizes = ", ".join(f"{array.nbytes >> 20} MiB" for array in (x, intensity, status))
+    print(f"x, intensity and status of 10⁸ samples: {sizes}; most held before {before} MiB, after {held()} MiB")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or ["compact", "paper", "precise"])
+    if sys.argv[1:] == ["--memory"]:
+        memory()
+    else:
+        speeds(sys.argv[1:] or ["compact", "paper", "precise"])

@@ -1,5 +1,6 @@
 //! The data path of one configuration: its parts. [`schedule`](super::schedule) has the ranks that they make.
 
+use crate::handshake::Control;
 use crate::pipelining::Pipelining;
 use crate::rom::{Rom, Row};
 
@@ -21,6 +22,8 @@ pub struct Datapath {
     pub(crate) output_one: i64,
     /// Where ranks of registers stand beyond the least.
     pub(crate) pipelining: Pipelining,
+    /// What stands around the ranks.
+    pub(crate) control: Control,
     /// True when every line fits an `i64`.
     pub(crate) narrow: bool,
 }

@@ -11,6 +11,7 @@
 //!
 //! [`Pipelining`] says how many ranks the parts take; nothing else counts them.
 
+use crate::handshake::Control;
 use crate::pipelining::{LineStep, Pipelining};
 use crate::registers::Register;
 
@@ -41,7 +42,26 @@ impl Datapath {
         &self.pipelining
     }
 
-    /// Number of ranks of registers, which is the latency in clock cycles.
+    /// What stands around the ranks: the rule by which they advance, the reset, a register slice.
+    #[must_use]
+    pub const fn control(&self) -> &Control {
+        &self.control
+    }
+
+    /// Clock cycles from the edge that takes a request to the one that can give its result away: one for each rank, and
+    /// one for a register slice.
+    #[must_use]
+    pub fn latency(&self) -> usize {
+        self.rank_count() + self.control.slice_latency()
+    }
+
+    /// Requests that can be under way at once: one in each rank, and two in a register slice.
+    #[must_use]
+    pub fn capacity(&self) -> usize {
+        self.rank_count() + self.control.slice_entries()
+    }
+
+    /// Number of ranks of registers.
     #[must_use]
     pub fn rank_count(&self) -> usize {
         self.head_ranks() + self.polynomial_ranks().max(self.divider_ranks()) + 1

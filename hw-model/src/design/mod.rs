@@ -87,6 +87,7 @@ impl Design {
             divider,
             output_one: config.output.max_bits().min(config.output.one()),
             pipelining: config.pipelining,
+            control: config.control(),
             narrow,
         };
         let refused = |problem| ConfigError::Field { field: "pipelining", problem };

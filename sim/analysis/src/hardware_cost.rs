@@ -37,7 +37,7 @@ impl HardwareCost {
             _ => 0,
         };
         Self {
-            latency: datapath.rank_count() as u64,
+            latency: datapath.latency() as u64,
             multipliers: multipliers(design),
             divider_bits,
             rom_bits: design.rom().bits(),

@@ -54,7 +54,7 @@ fn list(format: Format, out: &mut Out) -> anyhow::Result<()> {
         let design = Design::new(preset.config()?)?;
         rows.push(vec![
             Cell::from(preset.name),
-            Cell::Integer(design.datapath().rank_count() as i64),
+            Cell::Integer(design.datapath().latency() as i64),
             Cell::Integer(design.rom().bits() as i64),
             Cell::from(sizes(&design)),
             Cell::from(design.config().description.clone()),

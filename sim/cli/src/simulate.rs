@@ -88,7 +88,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     settle(&mut pipeline, counts.cycles, |settled| recorders.finish(settled))?;
     let alone = recordings.commit()?;
     if !alone && !all_answers {
-        print(&counts, datapath.rank_count(), args.format, out)?;
+        print(&counts, datapath.latency(), args.format, out)?;
         if args.format == Format::Table {
             first.print(counts.results, out)?;
         }

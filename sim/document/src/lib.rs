@@ -74,7 +74,7 @@ pub fn stage(subjects: &[Subject<'_>], command: &str, set: &mut OutputSet) -> Re
         entries.push(page::Entry {
             name: name.clone(),
             description: design.config().description.clone(),
-            latency: datapath.rank_count(),
+            latency: datapath.latency(),
         });
     }
     set.write(COMMON, page::common(&entries, command)?)?;

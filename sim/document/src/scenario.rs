@@ -165,7 +165,7 @@ fn play(datapath: &Datapath, script: Script) -> Scenario {
         |address: u32, x: i64| requests.iter().position(|request| (request.address, request.x) == (address, x));
     let mut pipeline = Pipeline::new(datapath);
     let ran = run(&mut pipeline, stimulus, |cycle| {
-        let shown = cycle.ranks.last().loaded;
+        let shown = cycle.ranks.result_loaded();
         let held = cycle.ranks.iter().map(|rank| {
             let Signals { address, x, .. } = rank.signals;
             if rank.valid { number(address, x) } else { None }

@@ -152,7 +152,7 @@ impl<'a> WaveWriter<'a> {
     /// The word of every signal but the clock, in their order.
     fn words(&self, cycle: &Cycle<'_>) -> Vec<Word> {
         let (inputs, outputs) = (cycle.inputs, cycle.outputs);
-        let shown = cycle.ranks.last().loaded;
+        let shown = cycle.ranks.result_loaded();
         let flag = |flag: bool| Some(u128::from(flag));
         let mut words = vec![
             flag(inputs.reset),

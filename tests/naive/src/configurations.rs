@@ -7,6 +7,7 @@ use hw_model::domain::Presented;
 use hw_model::exponents::Exponents;
 use hw_model::fit::Method;
 use hw_model::format::QFormat;
+use hw_model::handshake::{Handshake, Level, ReadySlice, Reset, ResetKind};
 use hw_model::pipelining::Pipelining;
 use hw_model::presets;
 use hw_model::registers::Register;
@@ -111,6 +112,9 @@ pub fn random(random: &mut Random) -> Config {
     if random.once_in(2) {
         config.pipelining = pipelining(random);
     }
+    if random.once_in(3) {
+        control(random, &mut config);
+    }
     config
 }
 
@@ -122,7 +126,20 @@ fn pipelining(random: &mut Random) -> Pipelining {
         operands: random.once_in(2),
         product: random.integer(0, 2) as u32,
         sum: random.once_in(2),
+        ready_slice: random.one_of(&[None, None, None, Some(ReadySlice::Input), Some(ReadySlice::Output)]),
     }
+}
+
+/// A handshake that goes with the ranks, and a reset.
+fn control(random: &mut Random, config: &mut Config) {
+    if config.pipelining.ready_slice.is_none() {
+        config.handshake = random.one_of(&Handshake::ALL);
+    }
+    config.reset = Reset {
+        kind: random.one_of(&[ResetKind::Synchronous, ResetKind::Asynchronous]),
+        active: random.one_of(&[Level::High, Level::Low]),
+        ready: random.once_in(2),
+    };
 }
 
 /// A domain that begins at or above every cut, or rarely below one.

@@ -14,7 +14,7 @@ pub fn dut_testbench(sources: &Sources<'_>, dut: &Dut) -> String {
     let datapath = sources.design.datapath();
     let formats = datapath.formats();
     let ports = &dut.ports;
-    let latency = dut.latency.map_or(datapath.rank_count(), |latency| latency as usize);
+    let latency = dut.latency.map_or(datapath.latency(), |latency| latency as usize);
     let has_status = ports.has("status_o");
     let of_status = |text: &'static str| if has_status { text } else { "" };
     let testbench = DutTestbench {

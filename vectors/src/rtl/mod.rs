@@ -10,10 +10,12 @@ pub mod probes;
 mod project;
 mod register_checker;
 pub mod register_log;
+pub mod reset_port;
 mod rom_source;
 pub mod save_file;
 mod sources;
 mod testbench;
+mod testbench_rules;
 pub mod wrappers;
 
 use std::io::Write;
@@ -67,7 +69,8 @@ pub fn stage(
     let sources = Sources { design, modules, vectors: bundle.vector_count(), control: bundle.flip().vector, command };
     for (name, text) in SOURCES.into_iter().chain([WRAPPER]) {
         let text = if emission.rom_in_source { &in_source(text, design) } else { text };
-        set.write(&modules.file(name), modules.text(text))?;
+        let text = reset_port::named(name, text, &design.config().reset);
+        set.write(&modules.file(name), modules.text(&text))?;
     }
     set.write(&modules.file(PACKAGE), modules.text(&package(design, command)))?;
     let bench = emission.dut.as_ref().map_or_else(|| testbench(&sources), |dut| dut_testbench(&sources, dut));

@@ -15,6 +15,7 @@ use hw_model::datapath::stage::MultiplyAdd;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
 use hw_model::format::QFormat;
+use hw_model::handshake::{Handshake, ReadySlice};
 use hw_model::pipelining::{PIECE, Pipelining};
 use hw_model::registers::Register;
 use hw_model::rom::{Field, Place};
@@ -43,6 +44,7 @@ pub fn package(design: &Design, command: &str) -> String {
             rounding_modes(),
             parts(design),
             pipelining(datapath),
+            handshake(datapath),
             ports(datapath),
             rom(datapath),
             fields(datapath),
@@ -184,7 +186,7 @@ fn parts(design: &Design) -> Section {
 }
 
 fn pipelining(datapath: &Datapath) -> Section {
-    let Pipelining { rom, front_end, operands, product, sum } = *datapath.pipelining();
+    let Pipelining { rom, front_end, operands, product, sum, ready_slice } = *datapath.pipelining();
     Section::new("Ranks of registers beyond the least")
         .integer("ROM_RANKS", i64::from(rom))
         .integer("FRONT_END_RANKS", front_end)
@@ -192,6 +194,24 @@ fn pipelining(datapath: &Datapath) -> Section {
         .integer("PRODUCT_RANKS", product)
         .integer("PRODUCT_PIECE", PIECE)
         .integer("SUM_RANKS", i64::from(sum))
+        .integer("INPUT_SLICE", i64::from(ready_slice == Some(ReadySlice::Input)))
+        .integer("OUTPUT_SLICE", i64::from(ready_slice == Some(ReadySlice::Output)))
+}
+
+fn handshake(datapath: &Datapath) -> Section {
+    let control = datapath.control();
+    let name = |kind: Handshake| format!("HANDSHAKE_{}", kind.name().to_uppercase());
+    let kinds = Section::new("Handshake and reset");
+    let numbered = (0_i64..).zip(Handshake::ALL);
+    let mut section = numbered.fold(kinds, |section, (number, kind)| section.integer(name(kind), number));
+    section = section.integer("HANDSHAKE", 0);
+    if let Some(constant) = section.constants.last_mut() {
+        constant.value = name(control.handshake);
+    }
+    section
+        .integer("RESET_ACTIVE_LOW", i64::from(control.reset.is_active_low()))
+        .integer("RESET_ASYNCHRONOUS", i64::from(control.reset.is_asynchronous()))
+        .integer("READY_IN_RESET", i64::from(control.reset.ready))
 }
 
 /// The degree; 1 where there is no polynomial, whose constants are named all the same.

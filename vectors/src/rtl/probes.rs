@@ -4,6 +4,8 @@ use hw_model::datapath::{Datapath, RankRegister};
 use hw_model::format::QFormat;
 use hw_model::registers::Register;
 
+use super::reset_port;
+
 /// A port of the pipeline.
 #[derive(Debug, Clone, Copy)]
 pub struct Port {
@@ -24,7 +26,7 @@ pub fn ports(datapath: &Datapath) -> [Port; 10] {
     let status = QFormat::field(datapath.status_width());
     [
         ("clk_i", None, flag),
-        ("rst_i", Some("rst"), flag),
+        (reset_port::name(&datapath.control().reset), Some("rst"), flag),
         ("in_valid_i", Some("in_valid"), flag),
         ("in_ready_o", Some("in_ready"), flag),
         ("address_i", Some("address"), address),

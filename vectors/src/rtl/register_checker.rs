@@ -5,6 +5,7 @@ use hw_model::design::Design;
 
 use super::modules::Modules;
 use super::probes::probes;
+use super::reset_port;
 
 /// The file of the register checker.
 pub const REGISTER_CHECKER: &str = "blysk_register_checker.sv";
@@ -14,11 +15,14 @@ pub const REGISTER_CHECKER: &str = "blysk_register_checker.sv";
 #[must_use]
 pub fn register_checker(design: &Design, modules: &Modules, command: &str) -> String {
     let file = modules.file(REGISTER_CHECKER);
+    let reset = &design.config().reset;
     let checker = RegisterChecker {
         configuration: &design.config().name,
         command,
         name: file.trim_end_matches(".sv"),
         dut: modules.dut(),
+        reset_port: reset_port::name(reset),
+        reset: if reset.is_active_low() { "(!rst_ni)" } else { "" },
         paths: probes(design.datapath()).into_iter().map(|probe| probe.path).collect(),
         json: literal(&design.config().to_json()),
     };
@@ -33,6 +37,8 @@ struct RegisterChecker<'a> {
     command: &'a str,
     name: &'a str,
     dut: &'a str,
+    reset_port: &'a str,
+    reset: &'a str,
     paths: Vec<String>,
     json: String,
 }

@@ -3,9 +3,11 @@
 use askama::Template;
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
+use hw_model::handshake::{Handshake, ReadySlice};
 
 use super::probes::{Probe, StageWord, probes, valid_path};
 use super::sources::Sources;
+use super::testbench_rules::Rules;
 
 /// The text of `blysk_tb.sv`.
 #[must_use]
@@ -23,6 +25,8 @@ pub fn testbench(sources: &Sources<'_>) -> String {
         white_box,
         vectors: sources.vectors,
         ranks: datapath.rank_count(),
+        latency: datapath.latency(),
+        rules: Rules::of(datapath),
         last: datapath.rank_name(datapath.rank_count() - 1),
         depth: datapath.rom().depth(),
         address: Number::of(QFormat::field(datapath.rom().address_width())),
@@ -51,6 +55,8 @@ struct Testbench<'a> {
     white_box: bool,
     vectors: u64,
     ranks: usize,
+    latency: usize,
+    rules: Rules,
     last: String,
     depth: usize,
     address: Number,

@@ -74,7 +74,7 @@ impl Clocked {
 
     /// True when no rank holds a request.
     #[must_use]
-    pub const fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.pipeline.is_empty()
     }
 }

@@ -96,7 +96,7 @@ impl Model {
     /// Clock cycles from a request to its result, which is the number of ranks.
     #[must_use]
     pub fn latency(&self) -> usize {
-        self.datapath().rank_count()
+        self.datapath().latency()
     }
 
     /// The ports, as the RTL names them, the clock first.

@@ -50,7 +50,7 @@ pub(crate) fn matching(contenders: &[Contender], rows: &[Synthesis]) -> Vec<(usi
                 let shipped = presets::find(&contender.family)
                     .and_then(|preset| preset.config().ok())
                     .is_some_and(|config| config == *design.config());
-                shipped && row.configuration == contender.family && row.latency == design.datapath().rank_count() as u64
+                shipped && row.configuration == contender.family && row.latency == design.datapath().latency() as u64
             }
             _ => false,
         })

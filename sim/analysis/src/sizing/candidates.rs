@@ -125,6 +125,8 @@ fn plain(request: &Request) -> Config {
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
         pipelining: Default::default(),
+        handshake: Default::default(),
+        reset: Default::default(),
     }
 }
 

@@ -220,6 +220,8 @@ fn widths(
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
         pipelining: Default::default(),
+        handshake: Default::default(),
+        reset: Default::default(),
     };
     let mut row = Widths {
         method,

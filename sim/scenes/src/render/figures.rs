@@ -147,7 +147,7 @@ impl Cycles {
     /// there is no cycle and no rate.
     #[must_use]
     pub fn new(pipeline: &ScenePipeline<'_>, requests: u64, clock_mhz: f64) -> Self {
-        let latency = pipeline.design.datapath().rank_count() as u64;
+        let latency = pipeline.design.datapath().latency() as u64;
         let cycles = if requests > 0 { requests + latency } else { 0 };
         let frames_per_second = (cycles > 0).then(|| clock_mhz * 1e6 / cycles as f64);
         Self { requests, cycles, frames_per_second }

@@ -45,8 +45,8 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[AskedRow]) -> Vec
     add("multiplier bits", &bits, "both operands' widths, multiplied, summed".to_owned());
     let registers = |design: &Design| register_bits(design.datapath());
     add("register bits", &registers, "of all ranks, as the vectors have them".to_owned());
-    let ranks = |design: &Design| design.datapath().rank_count() as u64;
-    add("latency, cycles", &ranks, "the longer of polynomial and divider".to_owned());
+    let latency = |design: &Design| design.datapath().latency() as u64;
+    add("latency, cycles", &latency, "the longer of polynomial and divider".to_owned());
     let input = |design: &Design| u64::from(design.config().input.width());
     let outside = if specialised.datapath().front_end().guarded {
         "stay: an x outside must be seen to be refused"

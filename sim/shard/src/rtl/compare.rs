@@ -52,7 +52,7 @@ pub fn compare(program: &Path, directory: &Path, datapath: &Datapath, piece: Pie
     let no_program = |cause| RtlError::NoProgram { program: program.to_owned(), cause };
     let mut child = Command::new(program)
         .args([address.to_string(), first.to_string(), last.to_string()])
-        .args([width.to_string(), (datapath.rank_count() + 1).to_string()])
+        .args([width.to_string(), (datapath.latency() + 1).to_string()])
         .current_dir(directory)
         .stdout(Stdio::piped())
         .spawn()

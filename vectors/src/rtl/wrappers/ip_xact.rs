@@ -17,7 +17,7 @@ pub fn ip_xact(sources: &Sources<'_>, emission: &Emission) -> String {
         configuration: &sources.design.config().name,
         version: env!("CARGO_PKG_VERSION"),
         module: module(sources, WRAPPER.0),
-        latency: datapath.rank_count(),
+        latency: datapath.latency(),
         interfaces: [
             Interface::of(
                 "s_axis",

@@ -6,6 +6,7 @@ use hw_model::rtl::TOP;
 use super::parts::pipeline;
 use crate::rtl::emission::Emission;
 use crate::rtl::files;
+use crate::rtl::reset_port;
 use crate::rtl::sources::Sources;
 
 /// The constraints: the clock, and half of its period for what is outside.
@@ -15,7 +16,7 @@ pub fn sdc(sources: &Sources<'_>, emission: &Emission) -> String {
     let ns = |time: f64| format!("{time:.3}");
     let sdc = Sdc { command: sources.command, mhz: emission.clock_mhz, period: ns(period), half: ns(period / 2.0) };
     // The templates write to a String, which cannot fail.
-    sdc.render().unwrap_or_default() + "\n"
+    reset_port::everywhere(&(sdc.render().unwrap_or_default() + "\n"), &sources.design.config().reset)
 }
 
 /// The recipe for Vivado.

@@ -5,6 +5,7 @@ use hw_model::rtl::TOP;
 
 use super::parts::image;
 use crate::rtl::emission::Emission;
+use crate::rtl::reset_port;
 use crate::rtl::sources::Sources;
 
 /// The text of the VHDL file.
@@ -18,7 +19,8 @@ pub fn vhdl(sources: &Sources<'_>, emission: &Emission) -> String {
         package: identifier(&format!("{top}_component")),
         component: identifier(&top),
         entity: identifier(&format!("{top}_vhdl")),
-        latency: datapath.rank_count(),
+        latency: datapath.latency(),
+        reset: if datapath.control().reset.is_asynchronous() { "asynchronous" } else { "synchronous" },
         image: image(sources, emission),
         address: datapath.rom().address_width() - 1,
         x: formats.input.width() - 1,
@@ -29,7 +31,7 @@ pub fn vhdl(sources: &Sources<'_>, emission: &Emission) -> String {
         status: datapath.status_width() - 1,
     };
     // The template writes to a String, which cannot fail.
-    file.render().unwrap_or_default() + "\n"
+    reset_port::everywhere(&(file.render().unwrap_or_default() + "\n"), &sources.design.config().reset)
 }
 
 #[derive(Template)]
@@ -40,6 +42,7 @@ struct Vhdl<'a> {
     component: String,
     entity: String,
     latency: usize,
+    reset: &'static str,
     image: Option<String>,
     address: u32,
     x: u32,
