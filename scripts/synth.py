@@ -171,7 +171,8 @@ def row(name, device, rtl, sources):
     found = [] if lacking else frequencies(place, device)
     return {
         "configuration": name, "device": device,
-        "latency": int(re.search(r"int RANKS = (\d+);", package)[1]), **core,
+        "latency": sum(int(re.search(rf"int {name} = (\d+);", package)[1])
+                       for name in ["RANKS", "INPUT_SLICE", "OUTPUT_SLICE"]), **core,
         "wrapper_luts": wrapped["luts"] - core["luts"],
         "wrapper_flip_flops": wrapped["flip_flops"] - core["flip_flops"],
         "f_max_mhz": f"{statistics.median(found):.1f}" if found else "",

@@ -82,7 +82,9 @@ module blysk_front_end (
   localparam logic [REGION_WIDTH-1:0] REGION_TAIL       = blysk_pkg::REGION_TAIL;
 
   // ---- Clamp x to [0, 1] --------------------------------------------------------------------------
-  logic               facing_away, above_one;
+  // Integer bits alone tell that x is 1 or more, and it is taken as 1 then. That it is more is for the status, which
+  // nothing waits for.
+  logic               facing_away, one_or_more, above_one;
   logic [X_WIDTH-1:0] x;
 
   if (INPUT_SIGNED != 0) begin : signed_input
@@ -91,11 +93,13 @@ module blysk_front_end (
     assign facing_away = 1'b0;
   end
   if (INPUT_EXCEEDS_ONE != 0) begin : wide_input
-    assign above_one = !facing_away && x_i > INPUT_WIDTH'(X_GREATEST);
+    assign one_or_more = !facing_away && |x_i[INPUT_WIDTH-1:INPUT_FRACTION];
+    assign above_one   = !facing_away && x_i > INPUT_WIDTH'(X_GREATEST);
   end else begin : narrow_input
-    assign above_one = 1'b0;
+    assign one_or_more = 1'b0;
+    assign above_one   = 1'b0;
   end
-  assign x = facing_away ? '0 : above_one ? X_GREATEST : x_i[X_WIDTH-1:0];
+  assign x = facing_away ? '0 : one_or_more ? X_GREATEST : x_i[X_WIDTH-1:0];
 
   // ---- Which part answers -------------------------------------------------------------------------
   logic [REGION_WIDTH-1:0] region_d, region, region_q;

@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::clock::Clock;
 use crate::domain::{self, Presented};
 use crate::exponents::Exponents;
 use crate::fit::{Hardware, Levels, Method};
@@ -121,6 +122,9 @@ pub struct Config {
     /// Ranks of registers beyond the least.
     #[serde(default, skip_serializing_if = "Pipelining::is_least")]
     pub pipelining: Pipelining,
+    /// A clock from which the ranks follow, in the place of `pipelining`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock: Option<Clock>,
     /// The rule by which ranks advance.
     #[serde(default, skip_serializing_if = "Handshake::is_usual")]
     pub handshake: Handshake,
@@ -241,6 +245,7 @@ impl Config {
             .or_else(|problem| wrong("domain", problem))?;
         self.pipelining.check().or_else(|problem| wrong("pipelining", problem))?;
         self.control().check().or_else(|problem| wrong("handshake", problem))?;
+        self.check_clock()?;
         if !(1..=8).contains(&self.quotient_bits_per_stage) {
             return wrong("quotient_bits_per_stage", "use 1 to 8");
         }
@@ -251,6 +256,14 @@ impl Config {
             return wrong("error_budget_ulp", "use a number above 0 (1.0 is usual), at most 1e6");
         }
         Ok(())
+    }
+
+    fn check_clock(&self) -> Result<(), ConfigError> {
+        let Some(clock) = &self.clock else { return Ok(()) };
+        if !self.pipelining.is_least() {
+            return wrong("clock", "the ranks follow from a clock: leave \"pipelining\" out, or the clock");
+        }
+        clock.check().or_else(|problem| wrong("clock", problem))
     }
 
     fn check_method(&self) -> Result<(), ConfigError> {

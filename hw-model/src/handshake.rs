@@ -61,7 +61,7 @@ pub struct Reset {
     pub kind: ResetKind,
     /// The level at which it resets.
     pub active: Level,
-    /// Whether `in_ready_o` may be high during a reset, which spares a gate behind it. What is presented then is lost.
+    /// Whether `in_ready_o` may be high during a reset, which spares a gate behind it. Nothing is taken then all the same.
     pub ready: bool,
 }
 
@@ -125,11 +125,11 @@ impl Control {
     /// Says what would be right.
     pub fn check(&self) -> Result<(), String> {
         match (self.slice, self.handshake) {
-            (Some(_), Handshake::Enable | Handshake::None) => Err(
-                "\"ready_slice\" takes ready off a path, and this handshake has none: leave it out, or say \
+            (Some(_), Handshake::Enable | Handshake::None) => {
+                Err("\"ready_slice\" takes ready off a path, and this handshake has none: leave it out, or say \
                  \"handshake\": \"valid_ready\""
-                    .to_owned(),
-            ),
+                    .to_owned())
+            }
             _ => Ok(()),
         }
     }

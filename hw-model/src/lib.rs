@@ -26,6 +26,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod budget;
+pub mod clock;
 pub mod config;
 pub mod datapath;
 pub mod design;

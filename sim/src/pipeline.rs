@@ -180,10 +180,7 @@ impl Slices {
     }
 
     fn cleared(&self) -> Self {
-        Self {
-            input: self.input.map(|slice| slice.cleared()),
-            output: self.output.map(|slice| slice.cleared()),
-        }
+        Self { input: self.input.map(|slice| slice.cleared()), output: self.output.map(|slice| slice.cleared()) }
     }
 
     /// The number of requests and results that wait in them.

@@ -86,7 +86,7 @@ impl Counts {
     fn count(&mut self, cycle: &Cycle<'_>, under_way: u32) {
         let Cycle { inputs, outputs, .. } = cycle;
         self.cycles += 1;
-        let taken = inputs.in_valid && outputs.in_ready;
+        let taken = inputs.in_valid && outputs.in_ready && !inputs.reset;
         let delivered = outputs.out_valid && inputs.out_ready && !inputs.reset;
         if taken {
             self.requests += 1;
@@ -129,7 +129,7 @@ pub fn run<E>(
         observe(&cycle)?;
         counts.count(&cycle, under_way);
         pipeline.clock();
-        if inputs.in_valid && outputs.in_ready {
+        if inputs.in_valid && outputs.in_ready && !inputs.reset {
             waiting.pop_front();
         }
     }

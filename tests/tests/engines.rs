@@ -55,8 +55,7 @@ impl<'a> Written<'a> {
         }
         let last = self.ranks[self.ranks.len() - 1];
         let sliced = self.has(ReadySlice::Output);
-        let (intensity, status) =
-            if sliced { self.shown } else { (last.signals.intensity, last.signals.status) };
+        let (intensity, status) = if sliced { self.shown } else { (last.signals.intensity, last.signals.status) };
         let room = if self.has(ReadySlice::Input) { self.requests.len() < 2 } else { self.advances(inputs).1[0] };
         Outputs {
             in_ready: room && (reset.ready || !inputs.reset),

@@ -1,7 +1,8 @@
 //! A configuration as somebody wrote it: a file, or a text; and what is said of one that is refused.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use hw_model::clock::Delays;
 use hw_model::config::{Config, ConfigError};
 use thiserror::Error;
 
@@ -14,6 +15,15 @@ pub enum ConfigurationError {
     /// The file cannot be read, or is no text.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// A table of delays is refused.
+    #[error("{}: {cause}; a table of delays has register, rom, lut, add, carry, multiply, enable in nanoseconds, and \
+             multiplier_bits", path.display())]
+    Delays {
+        /// The path of the table.
+        path: PathBuf,
+        /// What is wrong, with its line and column.
+        cause: serde_json::Error,
+    },
     /// The text is refused.
     #[error("{origin}: {error}{hint}")]
     Refused {
@@ -31,7 +41,31 @@ pub enum ConfigurationError {
 /// # Errors
 /// When the file cannot be read, or holds no configuration.
 pub fn read(path: &Path) -> Result<Config, ConfigurationError> {
-    parse(&text_file::read(path, CONFIGURATION)?, &path.display().to_string())
+    let text = text_file::read(path, CONFIGURATION)?;
+    let text = with_delays(&text, path)?.unwrap_or(text);
+    parse(&text, &path.display().to_string())
+}
+
+/// The table of delays in a file.
+///
+/// # Errors
+/// When the file cannot be read, or holds no such table.
+pub fn delays(path: &Path) -> Result<Delays, ConfigurationError> {
+    let text = text_file::read(path, CONFIGURATION)?;
+    serde_json::from_str(&text).map_err(|cause| ConfigurationError::Delays { path: path.to_owned(), cause })
+}
+
+/// The text of a configuration whose clock names a file of delays, with the table in the place of its name; none where
+/// it names no file. The name counts from the directory of the configuration.
+fn with_delays(text: &str, path: &Path) -> Result<Option<String>, ConfigurationError> {
+    let Ok(mut value) = serde_json::from_str::<serde_json::Value>(text) else { return Ok(None) };
+    let Some(device) = value.pointer_mut("/clock/device") else { return Ok(None) };
+    let Some(name) = device.as_str().filter(|name| name.ends_with(".json")) else { return Ok(None) };
+    let file = path.parent().unwrap_or(Path::new("")).join(name);
+    let table = delays(&file)?;
+    let refused = |cause| ConfigurationError::Delays { path: file.clone(), cause };
+    *device = serde_json::to_value(table).map_err(refused)?;
+    serde_json::to_string_pretty(&value).map(Some).map_err(refused)
 }
 
 /// The configuration in a text; `name` says in messages where the text comes from.

@@ -293,7 +293,7 @@ module blysk_tb;
   // do so too, and only their valid flags are cleared.
   task automatic step;
     loads = '0;
-    waits = in_valid && ![[ rules.takes ]] && !rst;
+    waits = in_valid && [[ rules.refuses ]] && !rst;
     if ([[ rules.shown ]] && !out_ready && !rst) stalls = stalls + 1;
     if (expect_ready && !in_valid && sent < total) bubbles = bubbles + 1;
 <%- if rules.slice == Some(ReadySlice::Output) %>

@@ -81,6 +81,14 @@ impl Datapath {
         }
     }
 
+    /// Widths of multiplicand, variable and result of a stage, or of the divisor for line 0; none where the data path
+    /// has no such line.
+    #[must_use]
+    pub fn line_widths(&self, line: usize) -> Option<[u32; 3]> {
+        let Operands { multiplicand, variable, result } = self.operands(line)?;
+        Some([multiplicand, variable, result].map(QFormat::width))
+    }
+
     fn operands(&self, line: usize) -> Option<Operands> {
         if line == 0 {
             let formats = self.formats.tail.as_ref()?;

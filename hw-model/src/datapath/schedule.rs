@@ -11,6 +11,7 @@
 //!
 //! [`Pipelining`] says how many ranks the parts take; nothing else counts them.
 
+use crate::clock::Ranks;
 use crate::handshake::Control;
 use crate::pipelining::{LineStep, Pipelining};
 use crate::registers::Register;
@@ -59,6 +60,31 @@ impl Datapath {
     #[must_use]
     pub fn capacity(&self) -> usize {
         self.rank_count() + self.control.slice_entries()
+    }
+
+    /// The same data path with these ranks.
+    ///
+    /// # Errors
+    /// When a register would be wider than one can be; says what would be right.
+    pub fn with_ranks(&self, ranks: &Ranks) -> Result<Self, String> {
+        let mut datapath = self.clone();
+        datapath.pipelining = ranks.pipelining;
+        datapath.control.slice = ranks.pipelining.ready_slice;
+        if let Some(divider) = &mut datapath.divider {
+            divider.digits_per_stage = ranks.quotient_bits;
+        }
+        datapath.check_pipelining()?;
+        Ok(datapath)
+    }
+
+    /// Bits of registers in all ranks, valid flags included.
+    #[must_use]
+    pub fn register_bits(&self) -> u64 {
+        let bits = |rank: usize| {
+            let held = self.registers(rank).into_iter();
+            1 + held.map(|register| u64::from(register.format.width())).sum::<u64>()
+        };
+        (0..self.rank_count()).map(bits).sum()
     }
 
     /// Number of ranks of registers.

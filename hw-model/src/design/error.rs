@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::budget::BudgetError;
+use crate::clock::Unreached;
 use crate::config::ConfigError;
 use crate::fit::FitError;
 use crate::presets;
@@ -27,6 +28,9 @@ pub enum DesignError {
     /// No widths keep the budget, or a stated width is too small.
     #[error(transparent)]
     Budget(#[from] BudgetError),
+    /// No ranks of registers reach the clock.
+    #[error("field `clock`: {0}")]
+    Clock(#[from] Unreached),
     /// A ROM field does not hold the value of a row.
     #[error("ROM field {field} at n = {exponent}: {source}")]
     Quantise {

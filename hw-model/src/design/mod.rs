@@ -70,7 +70,7 @@ impl Design {
         }
         let input = config.input.fraction_bits();
         let places = |end: Option<QFormat>| end.map_or(0, |end| input - end.fraction_bits());
-        let datapath = Datapath {
+        let mut datapath = Datapath {
             rom: Rom::new(config.exponents.clone(), parts.rom_rows, &parts.fields),
             formats: parts.formats,
             front_end: FrontEnd {
@@ -92,6 +92,9 @@ impl Design {
         };
         let refused = |problem| ConfigError::Field { field: "pipelining", problem };
         datapath.check_pipelining().map_err(refused)?;
+        if let Some(clock) = &config.clock {
+            datapath = clock.reached_by(&datapath, config.quotient_bits_per_stage)?;
+        }
         doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })
     }

@@ -10,6 +10,7 @@ mod certify;
 mod check;
 mod choice;
 mod claims;
+mod clock;
 mod coefficients;
 mod configuration;
 mod coverage;
@@ -72,6 +73,7 @@ enum Command {
     Rom(rom::Args),
     Refine(refine::Args),
     Design(design::Args),
+    Clock(clock::Args),
     Document(document::Args),
     Stability(stability::Args),
     Pareto(pareto::Args),
@@ -123,6 +125,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Rom(args) => rom::run(&args, out),
         Command::Refine(args) => refine::run(&args, out),
         Command::Design(args) => design::run(&args, out),
+        Command::Clock(args) => clock::run(&args, out),
         Command::Document(args) => document::run(&args, out),
         Command::Stability(args) => stability::run(&args, out),
         Command::Pareto(args) => pareto::run(&args, out),

@@ -11,7 +11,7 @@ use super::facts::Facts;
 use super::scenario::Scenario;
 use super::table::Table;
 use super::words::places;
-use super::{examples, flip_flops, lines, paths, ports, registers};
+use super::{control, examples, flip_flops, lines, paths, ports, registers};
 
 #[derive(Template)]
 #[template(path = "hardware.md", escape = "none")]
@@ -36,6 +36,7 @@ struct Page<'a> {
     scenarios: &'a [Scenario],
     requests: Table,
     passages: Table,
+    differences: Vec<String>,
 }
 
 /// The page of a configuration. `source` is the option that chooses it.
@@ -71,6 +72,7 @@ pub(super) fn page(
         scenarios,
         requests: examples::requests(design, first),
         passages: examples::passages(datapath, first),
+        differences: control::differences(datapath),
     };
     Ok(page.render()? + "\n")
 }

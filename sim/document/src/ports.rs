@@ -6,6 +6,7 @@ use hw_model::design::Design;
 use hw_model::quantise::decimal;
 use hw_model::registers::Register;
 use hw_model::rom::Place;
+use vectors::rtl::reset_port;
 
 use super::table::Table;
 use super::words::{ORDINALS, literal, value};
@@ -20,7 +21,10 @@ pub(super) fn ports(datapath: &Datapath) -> Table {
         table.row([name, direction, width, format.to_owned(), meaning.to_owned()]);
     };
     row("clk_i", "in", 1, "", "clock; everything happens at its rising edge");
-    row("rst_i", "in", 1, "", "reset, synchronous, active high");
+    let reset = datapath.control().reset;
+    let kind = if reset.is_asynchronous() { "asynchronous" } else { "synchronous" };
+    let level = if reset.is_active_low() { "low" } else { "high" };
+    row(reset_port::name(&reset), "in", 1, "", &format!("reset, {kind}, active {level}"));
     row("in_valid_i", "in", 1, "", "`address_i` and `x_i` are a request");
     row("in_ready_o", "out", 1, "", "the request is taken at this edge, if there is one");
     let address = datapath.rom().address_width();

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use hw_model::datapath::{Datapath, Signals, Status};
+use hw_model::handshake::Handshake;
 
 use sim::pipeline::Pipeline;
 use sim::run::{StimulusCycle, run};
@@ -21,7 +22,7 @@ pub(super) struct Request {
 /// What one cycle shows, at the rising edge that ends it. Requests are numbers into a list.
 #[derive(Debug, Clone)]
 pub(super) struct Sample {
-    /// The level of `rst_i`.
+    /// Whether there is a reset.
     pub(super) reset: bool,
     /// The request that is presented.
     pub(super) presented: Option<usize>,
@@ -29,6 +30,8 @@ pub(super) struct Sample {
     pub(super) in_ready: bool,
     /// The request in each rank.
     pub(super) ranks: Vec<Option<usize>>,
+    /// The level of `out_valid_o`.
+    pub(super) out_valid: bool,
     /// The level of `out_ready_i`.
     pub(super) out_ready: bool,
     /// intensity_o, once there was a result.
@@ -78,71 +81,119 @@ const WITHOUT_WORD: usize = 3;
 
 /// Every run that is drawn.
 pub(super) fn scenarios(datapath: &Datapath) -> Vec<Scenario> {
-    let ranks = datapath.rank_count();
-    scripts(ranks).into_iter().map(|script| play(datapath, script)).collect()
+    let handshake = datapath.control().handshake;
+    // Where nothing waits, neither a stall nor what it does to a bubble can be shown.
+    let waits = |script: &Script| handshake != Handshake::None || script.stalled.is_empty();
+    scripts(datapath).into_iter().filter(waits).map(|script| play(datapath, script)).collect()
 }
 
-fn scripts(ranks: usize) -> [Script; 4] {
-    // A request taken in cycle 1 is in the last rank from here on.
-    let out = ranks + 1;
+fn scripts(datapath: &Datapath) -> [Script; 4] {
+    let (latency, capacity) = (datapath.latency(), datapath.capacity());
+    // The result of a request taken in cycle 1 is there from here on.
+    let out = latency + 1;
     [
         Script {
             name: "run",
             title: "A plain run: one request a cycle, one result a cycle",
             words: format!(
                 "A is taken at the edge that ends cycle 1; its result is there from cycle {out} on, \
-                 {ranks} edges later."
+                 {latency} edges later."
             ),
             requests: vec![1, 2, 3, 4],
             words_only: false,
             stalled: 0..0,
             reset: 0..0,
-            cycles: ranks + 7,
+            cycles: latency + 7,
             spans: vec![],
         },
         Script {
             name: "stall",
             title: "A stall: out_ready_i is low, and every register holds",
-            words: format!(
-                "All {ranks} ranks are full when the first result is not taken, so in_ready_o falls in \
-                 the same cycle; the request that is presented waits, unchanged. Nothing is lost."
-            ),
-            requests: (1..ranks + 3).collect(),
+            words: stall(datapath),
+            requests: (1..capacity + 3).collect(),
             words_only: false,
             stalled: out..out + 3,
             reset: 0..0,
-            cycles: ranks + 9,
+            cycles: latency + 9,
             spans: vec![(out, out + 3, "stall")],
         },
         Script {
             name: "bubble",
-            title: "A bubble, and how it collapses behind a stall",
-            words: "Between A and B two cycles have no request. While A waits to be taken, B and C move \
-                    up into the empty ranks, and in_ready_o stays high: a rank advances when it is \
-                    empty or the next one advances."
-                .to_owned(),
+            title: match datapath.control().handshake {
+                Handshake::Enable => "A bubble, and how it stays behind a stall",
+                _ => "A bubble, and how it collapses behind a stall",
+            },
+            words: bubble(datapath).to_owned(),
             requests: vec![1, 4, 5],
             words_only: false,
             stalled: out..out + 3,
             reset: 0..0,
-            cycles: ranks + 9,
+            cycles: latency + 9,
             spans: vec![(2, 4, "bubble"), (out, out + 3, "stall")],
         },
         Script {
             name: "reset",
             title: "A reset: what is in flight is lost",
-            words: "The reset is sampled at the edge that ends its cycle: every valid flag is 0 after it. \
-                    in_ready_o is low during the reset, so D, presented meanwhile, is taken after it. \
-                    No result of A, B or C comes out."
-                .to_owned(),
+            words: reset(datapath),
             requests: vec![1, 2, 3, 4],
             words_only: true,
             stalled: 0..0,
             reset: 4..5,
-            cycles: ranks + 8,
+            cycles: latency + 8,
             spans: vec![(4, 5, "reset")],
         },
     ]
+}
+
+fn stall(datapath: &Datapath) -> String {
+    let ranks = datapath.rank_count();
+    match (datapath.control().slice, datapath.control().handshake) {
+        (Some(_), _) => {
+            let capacity = datapath.capacity();
+            format!(
+                "The first result is not taken. The slice takes one more, so that {capacity} requests are in flight \
+                 before in_ready_o falls; the request that is presented then waits, unchanged. Nothing is lost."
+            )
+        }
+        (None, Handshake::Enable) => {
+            "The enable is low: no rank moves, in_ready_o is low as well, and the request that \
+             is presented waits, unchanged. Nothing is lost."
+                .to_owned()
+        }
+        _ => format!(
+            "All {ranks} ranks are full when the first result is not taken, so in_ready_o falls in \
+             the same cycle; the request that is presented waits, unchanged. Nothing is lost."
+        ),
+    }
+}
+
+fn bubble(datapath: &Datapath) -> &'static str {
+    match datapath.control().handshake {
+        Handshake::Enable => {
+            "Between A and B two cycles have no request. While the enable is low, nothing moves: the two empty ranks \
+             stay between A and B."
+        }
+        _ => {
+            "Between A and B two cycles have no request. While A waits to be taken, B and C move \
+             up into the empty ranks, and in_ready_o stays high: a rank advances when it is \
+             empty or the next one advances."
+        }
+    }
+}
+
+fn reset(datapath: &Datapath) -> String {
+    let reset = datapath.control().reset;
+    let when = if reset.is_asynchronous() {
+        "The reset does not wait for the clock: every valid flag is 0 from the beginning of its cycle."
+    } else {
+        "The reset is sampled at the edge that ends its cycle: every valid flag is 0 after it."
+    };
+    let request = if reset.ready {
+        "in_ready_o does not look at the reset. D, presented meanwhile, is not taken before it ends."
+    } else {
+        "in_ready_o is low during the reset, so D, presented meanwhile, is taken after it."
+    };
+    format!("{when} {request} No result of A, B or C comes out.")
 }
 
 fn play(datapath: &Datapath, script: Script) -> Scenario {
@@ -175,6 +226,7 @@ fn play(datapath: &Datapath, script: Script) -> Scenario {
             presented: number(cycle.inputs.address, cycle.inputs.x).filter(|_| cycle.inputs.in_valid),
             in_ready: cycle.outputs.in_ready,
             ranks: held.collect(),
+            out_valid: cycle.outputs.out_valid,
             out_ready: cycle.inputs.out_ready,
             intensity: shown.then_some(cycle.outputs.intensity),
             status: shown.then_some(cycle.outputs.status),

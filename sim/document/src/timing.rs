@@ -2,6 +2,7 @@
 
 use hw_model::datapath::Datapath;
 use hw_model::format::QFormat;
+use vectors::rtl::reset_port;
 
 use super::scenario::{Sample, Scenario, name};
 use plot::canvas::{Anchor, Canvas, Point, colour};
@@ -94,13 +95,15 @@ pub(super) fn timing(datapath: &Datapath, scenario: &Scenario) -> String {
 fn lines(datapath: &Datapath, scenario: &Scenario) -> Vec<(String, Line)> {
     let samples = &scenario.samples;
     let bits = |of: fn(&Sample) -> bool| Line::Bit(samples.iter().map(of).collect());
+    let level = |of: &dyn Fn(&Sample) -> bool| Line::Bit(samples.iter().map(of).collect());
+    let reset = &datapath.control().reset;
     let words = |of: &dyn Fn(&Sample) -> Option<Word>| Line::Bus(samples.iter().map(of).collect());
     let plain = |text: String| Word { text, fill: colour::PAPER };
     let formats = datapath.formats();
     let request = |sample: &Sample| sample.presented.map(|index| &scenario.requests[index]);
     let mut lines = vec![
         ("clk_i".to_owned(), Line::Clock),
-        ("rst_i".to_owned(), bits(|sample| sample.reset)),
+        (reset_port::name(reset).to_owned(), level(&|sample| sample.reset != reset.is_active_low())),
         ("in_valid_i".to_owned(), bits(|sample| sample.presented.is_some())),
         ("in_ready_o".to_owned(), bits(|sample| sample.in_ready)),
         ("request".to_owned(), words(&|sample| sample.presented.map(tagged))),
@@ -114,7 +117,7 @@ fn lines(datapath: &Datapath, scenario: &Scenario) -> Vec<(String, Line)> {
         let label = format!("rank {rank}, {}", datapath.rank_name(rank));
         lines.push((label, words(&|sample| sample.ranks[rank].map(tagged))));
     }
-    lines.push(("out_valid_o".to_owned(), bits(|s| s.ranks.last().is_some_and(Option::is_some))));
+    lines.push(("out_valid_o".to_owned(), bits(|sample| sample.out_valid)));
     lines.push(("out_ready_i".to_owned(), bits(|sample| sample.out_ready)));
     lines.push((
         "intensity_o, hex".to_owned(),

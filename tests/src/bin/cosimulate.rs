@@ -42,7 +42,7 @@ const COVERING: [&str; 3] = ["paper", "compact", "precise"];
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 11] = [
+const SMALL: [(&str, Strategy, &str); 15] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -114,6 +114,34 @@ const SMALL: [(&str, Strategy, &str); 11] = [
             "output": "UQ0.8", "form": "centred", "tail": "rational", "rounding": "floor",
             "error_budget_ulp": 3, "quotient_bits_per_stage": 8, "pipelining":
             {"rom": true, "operands": true, "sum": true}}"#,
+    ),
+    // A register slice at each end, every other handshake, and resets of all kinds.
+    (
+        "small_sliced",
+        Strategy::Exhaustive,
+        r#"{"name": "small_sliced", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "pipelining":
+            {"rom": true, "product": 1, "ready_slice": "output"}, "reset": {"active": "low"}}"#,
+    ),
+    (
+        "small_sliced_input",
+        Strategy::Exhaustive,
+        r#"{"name": "small_sliced_input", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "pipelining": {"ready_slice": "input"},
+            "reset": {"kind": "asynchronous", "ready": true}}"#,
+    ),
+    (
+        "small_enable",
+        Strategy::Exhaustive,
+        r#"{"name": "small_enable", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "handshake": "enable",
+            "reset": {"kind": "asynchronous", "active": "low"}}"#,
+    ),
+    (
+        "small_free",
+        Strategy::Exhaustive,
+        r#"{"name": "small_free", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
+            "output": "UQ1.7", "cut": "minimum", "handshake": "none", "reset": {"ready": true}}"#,
     ),
 ];
 

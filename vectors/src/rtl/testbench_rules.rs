@@ -16,8 +16,8 @@ pub(super) struct Rules {
     pub(super) reset: &'static str,
     /// Whether the result of the last rank is taken.
     pub(super) taken: &'static str,
-    /// Whether a request is taken where there is no reset, and `in_ready_o`.
-    pub(super) takes: &'static str,
+    /// Whether a request has to wait where there is no reset, and `in_ready_o`.
+    pub(super) refuses: &'static str,
     pub(super) ready: String,
     /// The reason for `in_ready_o`.
     pub(super) rule: &'static str,
@@ -46,7 +46,7 @@ impl Rules {
             reset_port: reset_port::name(&control.reset),
             reset: if control.reset.is_active_low() { "!rst" } else { "rst" },
             taken: if output { "!spare_held" } else { "out_ready" },
-            takes,
+            refuses: if input { "spare_held" } else { "!advance[0]" },
             ready: format!("{takes}{}", if control.reset.ready { "" } else { " && !rst" }),
             rule: match control.handshake {
                 _ if input => "the slice takes one more until its spare entry is full",

@@ -125,6 +125,7 @@ fn plain(request: &Request) -> Config {
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
         pipelining: Default::default(),
+        clock: None,
         handshake: Default::default(),
         reset: Default::default(),
     }

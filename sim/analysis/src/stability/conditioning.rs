@@ -220,6 +220,7 @@ fn widths(
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
         pipelining: Default::default(),
+        clock: None,
         handshake: Default::default(),
         reset: Default::default(),
     };

@@ -43,7 +43,7 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[AskedRow]) -> Vec
     add("multipliers", &|design| multipliers(design), multiplier_reason(source, specialised));
     let bits = |design: &Design| hardware(design).multiplier_bits;
     add("multiplier bits", &bits, "both operands' widths, multiplied, summed".to_owned());
-    let registers = |design: &Design| register_bits(design.datapath());
+    let registers = |design: &Design| design.datapath().register_bits();
     add("register bits", &registers, "of all ranks, as the vectors have them".to_owned());
     let latency = |design: &Design| design.datapath().latency() as u64;
     add("latency, cycles", &latency, "the longer of polynomial and divider".to_owned());
@@ -102,14 +102,6 @@ fn multipliers(design: &Design) -> u64 {
 }
 
 /// Status, region, handshake and all.
-fn register_bits(datapath: &Datapath) -> u64 {
-    let bits = |rank: usize| {
-        let held = datapath.registers(rank).into_iter();
-        1 + held.map(|register| u64::from(register.format.width())).sum::<u64>()
-    };
-    (0..datapath.rank_count()).map(bits).sum()
-}
-
 fn tail_reason(source: &Design, specialised: &Design, rows: &[AskedRow]) -> String {
     if source.datapath().divider().is_none() {
         return "there was none".to_owned();

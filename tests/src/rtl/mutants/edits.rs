@@ -144,7 +144,7 @@ fn logic(logic: Logic) -> Option<Change> {
             let wrong = format!("(k == {segment} ? COMPARE'(x) <= hand_over : COMPARE'(x) < hand_over);");
             front_end("COMPARE'(x) < hand_over;", &wrong)
         }
-        Logic::NoInputClamp => front_end("above_one ? X_GREATEST", "1'b0 ? '0"),
+        Logic::NoInputClamp => front_end("one_or_more ? X_GREATEST", "1'b0 ? '0"),
         Logic::NegativeAsUnsigned => None,
         Logic::RegionsSwapped => front_end("if (above_cut) ", "if (!above_cut) "),
         Logic::NoClampBelow => clamp("below ? '0 :", "1'b0 ? '0 :"),

@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""Fits the delays of hw-model/src/clock/ to placements: what the parts of a pipeline take on each device.
+
+Each configuration is synthesised, placed and routed as `make synth` does, one seed. nextpnr says when each register gets
+its value; `blysk clock` says what parts lie before it; the delays are those with which the second comes nearest to the
+first. Short paths count less, as the longest one is the clock. Prints how far the estimated clock is from the placed
+one.
+
+    scripts/delays.py                 every configuration of CONFIGURATIONS, and the tables written
+    scripts/delays.py --show          the tables as they are, beside docs/synthesis.csv
+"""
+
+import argparse
+import csv
+import io
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import synth
+
+ROOT = Path(__file__).resolve().parent.parent
+TABLES = {"ECP5 25F": ROOT / "hw-model/src/clock/ecp5.json", "iCE40 UP5K": ROOT / "hw-model/src/clock/up5k.json"}
+BITS = {"ECP5 25F": 18, "iCE40 UP5K": 16}
+NAMES = ["register", "rom", "lut", "add", "carry", "multiply", "enable"]
+EXAMPLES = ["compact_12_bit", "compact_deep", "precise_deep", "paper_deep", "compact_12_bit_deep"]
+CONFIGURATIONS = {
+    **{name: ["--preset", name] for name in ["compact", "precise", "paper", "schlick", "blooming"]},
+    **{name: ["--config", f"docs/examples/{name}.json"] for name in EXAMPLES},
+}
+# The last part of a path in `blysk clock`, and the registers in which it ends, as Yosys calls them.
+ENDS = [
+    (r"^the ROM's memory$", r"rom\.word_behind|fields_i|word_i|least_x"),
+    (r"comparisons of x$", r"region|beyond|distance|at_choice"),
+    (r"gate of v$", r"variable\.v_q"),
+    (r"multiplier of stage (\d)$", r"stage\[{0}\]\.multiply_add\.(product_register|pieces)"),
+    (r"sum of the pieces of stage (\d)$", r"stage\[{0}\]\.multiply_add\.product_register"),
+    (r"sum of stage (\d)$", r"stage\[{0}\]\.multiply_add\.(sum_register|round_sum)"),
+    (r"rounding of stage (\d)$", r"stage\[{0}\]\.multiply_add\.t_q|stage\[{1}\]\.multiplicand"),
+    (r"multiplier of the divisor$", r"divisor_stage\.(product_register|pieces)"),
+    (r"sum of the pieces of the divisor$", r"divisor_stage\.product_register"),
+    (r"sum of the divisor$", r"divisor_stage\.(sum_register|round_sum)"),
+    (r"quotient bits$", r"quotient_bits|digit_stage"),
+    (r"^clamp$", r"output_slice|clamp\.(intensity|status)"),
+    (r"ahead$", r"handshake\.advance|in_ready_o"),
+    (r"enables", r"^CE "),
+]
+
+
+def paths(blysk, option, table):
+    """What `blysk clock` says of a configuration with these delays: parts and nanoseconds of each path."""
+    file = synth.WORK / "delays.json"
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(json.dumps(table))
+    command = [*shlex.split(blysk), "clock", *option, "--device", str(file), "--format", "json"]
+    said = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
+    return [(row["through"], row["ns"]) for row in json.loads(said)]
+
+
+def counts(blysk, option, bits):
+    """How often each delay lies on each path."""
+    ones = {name: 1.0 for name in NAMES} | {"multiplier_bits": bits}
+    base = paths(blysk, option, ones)
+    more = [[ns for _, ns in paths(blysk, option, ones | {name: 2.0})] for name in NAMES]
+    return [(words, [other[i] - ns for other in more]) for i, (words, ns) in enumerate(base)]
+
+
+def arrivals(report):
+    """When each register of a placement gets its value, by what Yosys calls it; its enable apart."""
+    latest = {}
+    for net in report["detailed_net_timings"]:
+        for end in net["endpoints"]:
+            name = re.sub(r"_(TRELLIS_FF|SB_DFF).*", "", end["cell"])
+            if end["port"] in ("CE", "CEN", "CEA", "CEB", "RCLKE", "RE"):
+                name = f"CE {name}"
+            delay = max(end["delay"]) if isinstance(end["delay"], list) else end["delay"]
+            latest[name] = max(latest.get(name, 0.0), delay)
+    return latest
+
+
+def measured(words, latest):
+    """The latest arrival at the registers in which a path ends; none where Yosys gave them other names."""
+    last = words.split(", ")[-1] if ", " in words and not words.startswith("ready") else words
+    for pattern, registers in ENDS:
+        if found := re.search(pattern, words if pattern.startswith("^") else last):
+            numbers = [int(group) for group in found.groups()]
+            wanted = registers.format(*numbers, *[number + 1 for number in numbers])
+            return max((delay for name, delay in latest.items() if re.search(wanted, name)), default=None)
+    return None
+
+
+def fit(equations):
+    """Delays of 0 or more with the least squares of relative errors, one delay after the other."""
+    values = [1.0] * len(NAMES)
+    for _ in range(20000):
+        for k in range(len(NAMES)):
+            above = below = 0.0
+            for row, ns, weight in equations:
+                rest = ns - sum(c * v for i, (c, v) in enumerate(zip(row, values)) if i != k)
+                above += weight * row[k] * rest
+                below += weight * row[k] * row[k]
+            if below:
+                values[k] = max(0.0, above / below)
+    return values
+
+
+def placed(blysk, name, option, device):
+    """The report of a placement with the first seed; none where the configuration does not fit."""
+    rtl, sources = synth.emit(blysk, name, option)
+    row = synth.row(name, device, rtl, sources)
+    if row["fits"] != "yes":
+        return None
+    return json.loads((synth.WORK / name / device.replace(" ", "_") / "report.json").read_text())
+
+
+def show(blysk):
+    """Prints the estimated clock of each row of docs/synthesis.csv beside the placed one."""
+    rows = [row for row in csv.DictReader(io.StringIO(synth.COMMITTED.read_text())) if row["f_max_mhz"]]
+    worst = 0.0
+    for row in rows:
+        option = synth.configurations(blysk)[row["configuration"]]
+        table = json.loads(TABLES[row["device"]].read_text())
+        estimate = 1e3 / max(ns for _, ns in paths(blysk, option, table))
+        off = estimate / float(row["f_max_mhz"]) - 1
+        worst = max(worst, abs(off))
+        print(f"{row['configuration']:22}{row['device']:12}{row['f_max_mhz']:>7}{estimate:8.1f}{off:+8.1%}")
+    return worst
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
+    parser.add_argument("--show", action="store_true", help="only print estimates beside docs/synthesis.csv")
+    parser.add_argument("--reuse", action="store_true", help="take the reports of the last run where they are")
+    args = parser.parse_args()
+    os.environ["PATH"] = f"{synth.VENV}:{os.environ['PATH']}"
+    if args.show:
+        sys.exit(0 if show(args.blysk) <= 0.15 else 1)
+    synth.SEEDS = synth.SEEDS[:1]
+    synth.COMMON = synth.COMMON.replace("--quiet", "--detailed-timing-report --quiet")
+    for device, file in TABLES.items():
+        equations = []
+        for name, option in CONFIGURATIONS.items():
+            report = synth.WORK / name / device.replace(" ", "_") / "report.json"
+            found = json.loads(report.read_text()) if args.reuse and report.exists() else None
+            found = found or (None if args.reuse else placed(args.blysk, name, option, device))
+            if not found or "detailed_net_timings" not in found:
+                continue
+            latest = arrivals(found)
+            longest = max(latest.values())
+            for words, row in counts(args.blysk, option, BITS[device]):
+                ns = measured(words, latest)
+                print(f"{name:20}{device:12}{ns or 0:7.2f}  {words}", flush=True)
+                if ns:
+                    equations.append((row, ns, (ns / longest) ** 4 / ns**2))
+        if not equations:
+            sys.exit(f"delays: no placement for {device}")
+        table = {key: round(value, 3) for key, value in zip(NAMES, fit(equations))} | {"multiplier_bits": BITS[device]}
+        file.write_text(json.dumps(table, indent=2) + "\n")
+        print(f"{file.name}: {table}")
+
+
+if __name__ == "__main__":
+    main()
