@@ -6,8 +6,15 @@ use std::num::ParseFloatError;
 /// The most digits: so many and fewer are an f64, like the power of ten below them.
 const MOST_DIGITS: usize = 15;
 
-const TENS: [f64; MOST_DIGITS + 1] =
-    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+const TENS: [u64; MOST_DIGITS + 1] = {
+    let mut tens = [1; MOST_DIGITS + 1];
+    let mut power = 1;
+    while power <= MOST_DIGITS {
+        tens[power] = 10 * tens[power - 1];
+        power += 1;
+    }
+    tens
+};
 
 /// A number of 1 to 15 digits, with a point or without, and nothing else: no sign, no exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,26 +26,25 @@ pub struct Decimal {
 
 impl Decimal {
     /// The decimal that a text begins with, and the rest of the text.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn begin(text: &[u8]) -> Option<(Self, &[u8])> {
-        let (whole, rest) = digits(0, text);
-        let (digits, decimals, rest) = match rest {
-            [b'.', fraction @ ..] => {
-                let (all, rest) = digits(whole, fraction);
-                (all, Some(fraction.len() - rest.len()), rest)
-            }
-            _ => (whole, None, rest),
+        let (whole, count) = few_digits(text);
+        let rest = text.get(count..)?;
+        let [b'.', fraction @ ..] = rest else {
+            return (1..=MOST_DIGITS).contains(&count).then_some((Self { digits: whole, decimals: None }, rest));
         };
-        let count = text.len() - rest.len() - usize::from(decimals.is_some());
-        (1..=MOST_DIGITS).contains(&count).then_some((Self { digits, decimals }, rest))
+        let (decimals, behind) = digits(fraction);
+        let digits = whole.wrapping_mul(*TENS.get(behind)?).wrapping_add(decimals);
+        let decimals = Some(behind);
+        (1..=MOST_DIGITS).contains(&(count + behind)).then_some((Self { digits, decimals }, fraction.get(behind..)?))
     }
 
     /// The nearest f64: a quotient of two, rounded once.
     #[inline]
     #[must_use]
     pub fn real(self) -> f64 {
-        self.digits as f64 / TENS[self.decimals.unwrap_or(0)]
+        self.digits as f64 / TENS[self.decimals.unwrap_or(0)] as f64
     }
 
     /// The whole number, where it is written as one.
@@ -49,14 +55,61 @@ impl Decimal {
     }
 }
 
-/// Appends the digits that a text begins with to a number; of too many it makes nothing that means something.
-#[inline]
-fn digits(mut number: u64, mut text: &[u8]) -> (u64, &[u8]) {
-    while let [digit @ b'0'..=b'9', rest @ ..] = text {
-        number = number.wrapping_mul(10).wrapping_add(u64::from(digit - b'0'));
-        text = rest;
+/// The number that the digits make with which a text begins, and how many they are; of more than 15 digits the number
+/// means nothing. Few digits are found soonest.
+#[inline(always)]
+fn few_digits(text: &[u8]) -> (u64, usize) {
+    match text.first_chunk().map(|bytes| digits_of_eight(*bytes)) {
+        Some(found) if found.1 < 8 => found,
+        _ => digits(text),
     }
-    (number, text)
+}
+
+/// The same however many digits there are. No processor can foresee how many: so there is no loop over bytes.
+#[inline(always)]
+fn digits(text: &[u8]) -> (u64, usize) {
+    match text.first_chunk() {
+        Some(bytes) => digits_of_sixteen(*bytes),
+        None => one_by_one(text),
+    }
+}
+
+fn one_by_one(text: &[u8]) -> (u64, usize) {
+    let digits = text.iter().take_while(|byte| byte.is_ascii_digit());
+    digits.fold((0, 0), |(number, count), digit| {
+        (u64::wrapping_mul(number, 10).wrapping_add(u64::from(digit - b'0')), count + 1)
+    })
+}
+
+/// A byte that is not 0 to 9 has its highest bit set when this is added, or had it; bytes behind it may be wrong.
+const BEYOND_NINE: u128 = u128::from_le_bytes([0x80 - 10; 16]);
+const HIGHEST: u128 = u128::from_le_bytes([0x80; 16]);
+const ZEROS: u128 = u128::from_le_bytes([b'0'; 16]);
+
+#[inline(always)]
+fn digits_of_eight(bytes: [u8; 8]) -> (u64, usize) {
+    let digits = u64::from_le_bytes(bytes) ^ ZEROS as u64;
+    let others = (digits.wrapping_add(BEYOND_NINE as u64) | digits) & HIGHEST as u64;
+    let count = others.trailing_zeros() / 8;
+    (eight(digits.unbounded_shl(64 - 8 * count)), count as usize)
+}
+
+#[inline(always)]
+fn digits_of_sixteen(bytes: [u8; 16]) -> (u64, usize) {
+    let digits = u128::from_le_bytes(bytes) ^ ZEROS;
+    let others = (digits.wrapping_add(BEYOND_NINE) | digits) & HIGHEST;
+    let count = others.trailing_zeros() / 8;
+    let digits = digits.unbounded_shl(128 - 8 * count);
+    (eight(digits as u64) * 100_000_000 + eight((digits >> 64) as u64), count as usize)
+}
+
+/// The number of eight digits, the first in the lowest byte: ones are joined to pairs, pairs to fours, fours to the
+/// number. Each product has in the upper half of every place what is joined.
+#[inline(always)]
+fn eight(ones: u64) -> u64 {
+    let pairs = (ones.wrapping_mul((10 << 8) + 1) >> 8) & 0x00ff_00ff_00ff_00ff;
+    let fours = (pairs.wrapping_mul((100 << 16) + 1) >> 16) & 0x0000_ffff_0000_ffff;
+    fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
 /// The f64 nearest to a number, however it is written: what `parse` gives.
@@ -93,6 +146,16 @@ mod tests {
         let (decimal, rest) = Decimal::begin(b"64,0.99").unwrap();
         assert_eq!((decimal.whole(), rest), (Some(64), &b",0.99"[..]));
         assert_eq!(Decimal::begin(b"64.").unwrap().0.whole(), None);
+        // As many bytes behind it as are looked at.
+        for (text, whole) in
+            [("64", 64), ("8304722", 8_304_722), ("83047221", 83_047_221), ("999999999999999", 999_999_999_999_999)]
+        {
+            for end in ["", ",", "\n", "\u{fb}", "/", ":"] {
+                let line = format!("{text}{end}{}", "7".repeat(20));
+                let (decimal, rest) = Decimal::begin(if end.is_empty() { text } else { &line }.as_bytes()).unwrap();
+                assert_eq!((decimal.whole(), rest.starts_with(end.as_bytes())), (Some(whole), true), "{line}");
+            }
+        }
     }
 
     proptest! {

@@ -86,18 +86,28 @@ pub fn waves(design: &Design, cycles: u64, path: &Path) -> Result<Timed, Failure
     Ok(Timed { count: cycles, seconds: processor() - begin, checksum: 0 })
 }
 
-/// Questions n,x at random, n of 1 to 256 and x of six decimals, in a file.
+/// How the columns of questions are named.
+pub const COLUMNS: [&str; 2] = ["n,x", "address,x_bits"];
+
+/// Questions at random in a file: with the columns n,x an n of 1 to 256 and an x of six to nine decimals, with
+/// address,x_bits the same n and an x of the input format.
 ///
 /// # Errors
 /// When it cannot be written.
-pub fn questions(count: u64, path: &Path) -> Result<(), Failure> {
+pub fn questions(columns: &str, count: u64, path: &Path) -> Result<(), Failure> {
     let mut out = BufWriter::new(File::create(path).map_err(failure)?);
     let mut stimulus = Random::new();
-    writeln!(out, "n,x").map_err(failure)?;
+    writeln!(out, "{columns}").map_err(failure)?;
     for _ in 0..count {
-        let (address, x) = stimulus.next();
-        let x = (x as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) % 1_000_000;
-        writeln!(out, "{},0.{x:06}", address + 1).map_err(failure)?;
+        let (address, x_bits) = stimulus.next();
+        let random = (x_bits as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        let decimals = 6 + (random >> 62) as usize;
+        let x = random % 10_u64.pow(decimals as u32);
+        match columns {
+            "n,x" => writeln!(out, "{},0.{x:0decimals$}", address + 1),
+            _ => writeln!(out, "{address},{x_bits}"),
+        }
+        .map_err(failure)?;
     }
     out.flush().map_err(failure)
 }

@@ -209,24 +209,30 @@ fn written(design: &Design, table: &mut Table) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Answers a second to a file of questions, in one thread.
+/// Answers a second to a file of questions, text to text in one thread, beside a plain reader of n,x.
 fn answers(design: &Design, table: &mut Table) -> Result<(), Failure> {
-    let file = tempfile::NamedTempFile::new().map_err(|error| Failure(error.to_string()))?;
-    files::questions(QUESTIONS, file.path())?;
-    let mut rates = [(); 2].map(|()| Rates::default());
-    for _ in 0..TURNS {
-        let ours = files::answered(design, file.path())?;
-        let naive = files::naively_answered(design, file.path())?;
-        if ours.count != QUESTIONS || naive.count != QUESTIONS {
-            return failed(format!("{} and {} answers to {QUESTIONS}", ours.count, naive.count));
-        }
-        rates[0].push(&naive);
-        rates[1].push(&ours);
+    let directory = tempfile::tempdir().map_err(|error| Failure(error.to_string()))?;
+    let [by_n, by_address] = files::COLUMNS.map(|columns| (columns, directory.path().join(columns)));
+    for (columns, path) in [&by_n, &by_address] {
+        files::questions(columns, QUESTIONS, path)?;
     }
-    let [naive, ours] = &rates;
-    let ratio = Some((ours.median() / naive.median(), "`parse`, `writeln!`"));
-    table.line("questions, a line at a time", naive, "answers", None);
-    table.line("questions, `blysk evaluate`", ours, "answers", ratio);
+    let mut rates = [(); 3].map(|()| Rates::default());
+    for _ in 0..TURNS {
+        let turn = [
+            files::naively_answered(design, &by_n.1)?,
+            files::answered(design, &by_n.1)?,
+            files::answered(design, &by_address.1)?,
+        ];
+        if let Some(run) = turn.iter().find(|run| run.count != QUESTIONS) {
+            return failed(format!("{} answers to {QUESTIONS}", run.count));
+        }
+        rates.iter_mut().zip(&turn).for_each(|(rates, run)| rates.push(run));
+    }
+    let [naive, ours, addresses] = &rates;
+    let ratio = |rates: &Rates| Some((rates.median() / naive.median(), "`parse`, `writeln!`"));
+    table.line("questions n,x, a line at a time", naive, "answers", None);
+    table.line("questions n,x, `blysk evaluate`", ours, "answers", ratio(ours));
+    table.line("questions address,x_bits, `blysk evaluate`", addresses, "answers", ratio(addresses));
     Ok(())
 }
 
@@ -261,8 +267,9 @@ fn write_docs(path: &Path, machine: &str, tables: &str) -> Result<(), Failure> {
          - The sweep of all x computes the intensity of every representable x in [0, 1] for every exponent. Where x \
          is below the cut and there is no tail, that is a fill; so it is given for the x above the cut alone, too.\n\
          - The error statistics are those of `blysk report --exhaustive`.\n\
-         - Questions are {QUESTIONS} random lines `n,x` of a file; the answers go nowhere. A line at a time: `split`, \
-         `parse`, the answer, x^n and a `writeln!`. In time of the processor, one thread.\n{tables}"
+         - Questions are {QUESTIONS} random lines of a file, x with six to nine decimals; the answers are text and go \
+         nowhere. A line at a time: `split`, `parse`, the answer, x^n and a `writeln!`. In time of the processor, one \
+         thread.\n{tables}"
     );
     std::fs::write(path, text).map_err(|error| Failure(format!("cannot write {}: {error}", path.display())))
 }

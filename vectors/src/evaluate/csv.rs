@@ -7,6 +7,7 @@ use hw_model::format::{Overflow, QFormat};
 use hw_model::quantise::x_bits;
 
 use super::answer::{Answer, Question, References};
+use super::digits::Decimals;
 use super::lines::{Room, Texts};
 use super::stream::Dialect;
 
@@ -18,7 +19,8 @@ pub struct Csv<'a> {
     datapath: &'a Datapath,
     columns: Option<Columns>,
     references: References,
-    texts: [Texts; 3],
+    decimals: [Decimals; 2],
+    texts: [Texts; 2],
     room: Room,
 }
 
@@ -78,16 +80,19 @@ impl<'a> Csv<'a> {
             datapath,
             columns: None,
             references: References::default(),
+            decimals: Default::default(),
             texts: Default::default(),
             room: Room::default(),
         }
     }
 
-    /// A line of two decimals and nothing else, which most are; another one is read field by field.
-    fn plain(&self, columns: Columns, line: &[u8]) -> Option<Question> {
-        let (first, rest) = Decimal::begin(line)?;
+    /// The question of two decimals and nothing else, which most lines are, at the beginning of a text, and the rest of
+    /// the text. Another line is read field by field.
+    #[inline(always)]
+    fn plain<'t>(&self, columns: Columns, text: &'t [u8]) -> Option<(Question, &'t [u8])> {
+        let (first, rest) = Decimal::begin(text)?;
         let (second, rest) = Decimal::begin(rest.strip_prefix(b",")?)?;
-        if columns.count != 2 || !rest.is_empty() {
+        if columns.count != 2 {
             return None;
         }
         let (which, x) = if columns.x.0 == 1 { (first, second) } else { (second, first) };
@@ -97,13 +102,14 @@ impl<'a> Csv<'a> {
             X::Bits => x.whole().filter(|&x| x <= input.max_bits())?,
         };
         let rom = self.datapath.rom();
-        match columns.which.1 {
-            Which::Exponent => Some(which.real()).filter(|&n| n >= 1.0).map(|n| Question::of(rom, n, x)),
+        let question = match columns.which.1 {
+            Which::Exponent => Question::of(rom, Some(which.real()).filter(|&n| n >= 1.0)?, x),
             Which::Address => {
                 let address = which.whole().filter(|address| address >> rom.address_width() == 0)?;
-                Some(Question::at(rom, address as u32, x))
+                Question::at(rom, address as u32, x)
             }
-        }
+        };
+        Some((question, rest))
     }
 
     fn question(&self, columns: Columns, line: &str) -> Result<Question, String> {
@@ -155,9 +161,20 @@ impl Dialect for Csv<'_> {
         "write a line `n,x`, and below it a line for each question, such as `64,0.99`"
     }
 
+    fn begin(&mut self, text: &str, most: usize, questions: &mut Vec<Question>) -> usize {
+        let Some(columns) = self.columns else { return 0 };
+        let mut rest = text.as_bytes();
+        for _ in 0..most {
+            let Some((question, [b'\n', next @ ..])) = self.plain(columns, rest) else { break };
+            questions.push(question);
+            rest = next;
+        }
+        text.len() - rest.len()
+    }
+
     fn read(&mut self, line: &str, questions: &mut Vec<Question>) -> Result<(), String> {
         if let Some(columns) = self.columns
-            && let Some(question) = self.plain(columns, line.as_bytes())
+            && let Some((question, [])) = self.plain(columns, line.as_bytes())
         {
             questions.push(question);
             return Ok(());
@@ -174,21 +191,24 @@ impl Dialect for Csv<'_> {
     }
 
     fn write(&mut self, answers: &[Answer], to: &mut Vec<u8>) {
-        let (datapath, output) = (self.datapath, self.datapath.formats().output);
+        let datapath = self.datapath;
+        let (input, output) = (datapath.formats().input, datapath.formats().output);
         let references = self.references.of(datapath, answers);
         let errors = answers.iter().zip(references);
         let errors = errors.map(|(answer, &reference)| answer.error_ulp(datapath, reference));
-        let [x, reference, error_ulp] = &mut self.texts;
-        let x = x.of(answers.iter().map(|answer| answer.x(datapath)));
+        let [reference, error_ulp] = &mut self.texts;
         let reference = reference.of(references.iter().copied());
         let error_ulp = error_ulp.of(errors);
+        let [x, intensity] = &mut self.decimals;
+        x.of(answers.iter().map(|answer| answer.question.x), input);
+        intensity.of(answers.iter().map(|answer| answer.intensity), output);
         let mut lines = self.room.lines(answers.len());
         for (index, answer) in answers.iter().enumerate() {
             lines.exponent(answer.question.exponent);
             lines.byte(b',');
-            lines.number(x[index]);
+            lines.fixed(x, index, answer.question.x, input);
             lines.byte(b',');
-            lines.fixed(answer.intensity, output);
+            lines.fixed(intensity, index, answer.intensity, output);
             lines.byte(b',');
             lines.number(reference[index]);
             lines.byte(b',');
@@ -224,7 +244,7 @@ mod tests {
                 let csv = Csv::new(design.datapath());
                 let columns = Columns::find(header).unwrap();
                 let line = format!("{first},{second}{end}");
-                if let Some(question) = csv.plain(columns, line.as_bytes()) {
+                if let Some((question, [])) = csv.plain(columns, line.as_bytes()) {
                     prop_assert_eq!(csv.question(columns, &line), Ok(question), "{} {}", header, line);
                 }
             }

@@ -3,6 +3,8 @@
 use hw_model::format::QFormat;
 use hw_model::quantise::real;
 
+use super::digits::{Decimals, HEAD, ZEROS, eight_digits};
+
 /// The texts of a column of numbers, in memory that is used again.
 ///
 /// A processor that reads bytes while those that wrote them are under way waits for these: so a column is written as a
@@ -107,45 +109,23 @@ impl Lines<'_> {
         }
     }
 
-    /// The real value of bits in a format.
-    ///
-    /// With at most 15 fraction bits, its decimals are as many as fraction bits that are not trailing zeros; they are
-    /// its shortest text, as no two numbers of 15 digits are the same f64. Sixteen of them, zeros included, are those
-    /// of bits·10¹⁶·2⁻ᶠ.
-    #[inline]
-    pub(super) fn fixed(&mut self, bits: i64, format: QFormat) {
-        let fraction = format.fraction_bits();
-        let value = real(bits, format);
-        // Below 0.00001 it would have an exponent.
-        if fraction > 15 || !(1e-5..1.0).contains(&value) {
-            return self.number(shortest(&mut zmij::Buffer::new(), value));
-        }
-        let digits = ((bits as u64) << (16 - fraction)) * 5_u64.pow(16);
-        let (high, low) = (digits / 100_000_000, digits % 100_000_000);
+    /// The real value of bits in a format, whose decimals are in this place of a column.
+    #[inline(always)]
+    pub(super) fn fixed(&mut self, decimals: &Decimals, index: usize, bits: i64, format: QFormat) {
+        let Some(([head, high, low], count)) = decimals.text(index) else {
+            return self.number(shortest(&mut zmij::Buffer::new(), real(bits, format)));
+        };
         let place = self.place();
-        place[..2].copy_from_slice(b"0.");
-        place[2..10].copy_from_slice(&(eight_digits(high) | ZEROS).to_le_bytes());
-        place[10..18].copy_from_slice(&(eight_digits(low) | ZEROS).to_le_bytes());
-        self.end += 2 + (fraction - bits.trailing_zeros()) as usize;
+        place[..8].copy_from_slice(&head.to_le_bytes());
+        place[HEAD..][..8].copy_from_slice(&(high | ZEROS).to_le_bytes());
+        place[HEAD + 8..][..8].copy_from_slice(&(low | ZEROS).to_le_bytes());
+        self.end += count;
     }
 
+    #[inline(always)]
     fn place(&mut self) -> &mut [u8] {
         &mut self.room[self.end..self.end + PIECE]
     }
-}
-
-/// Eight times the digit 0.
-const ZEROS: u64 = u64::from_le_bytes(*b"00000000");
-
-/// The digits of a number below 10⁸, the first in the lowest byte. Each step parts every number in two, in place: by
-/// 10 000, by 100, by 10.
-#[inline]
-fn eight_digits(number: u64) -> u64 {
-    let fours = (number / 10_000) | ((number % 10_000) << 32);
-    let hundreds = ((fours * 10_486) >> 20) & 0x0000_007f_0000_007f;
-    let twos = hundreds | ((fours - 100 * hundreds) << 16);
-    let tens = ((twos * 103) >> 10) & 0x000f_000f_000f_000f;
-    tens | ((twos - 10 * tens) << 8)
 }
 
 /// Copies one to three times as many bytes as a piece has, as three pieces that may overlap: there is no choice in it
@@ -177,11 +157,21 @@ mod tests {
 
     #[test]
     fn every_value_of_a_format_is_its_shortest_text() {
-        for format in ["UQ1.15", "UQ1.14", "UQ1.8", "UQ1.1", "UQ1.0", "UQ0.15", "UQ1.16", "Q2.13"] {
+        // Ties have at most 18 fraction bits; of the longer ones every 37th.
+        for format in [
+            "UQ1.15", "UQ1.14", "UQ1.8", "UQ1.1", "UQ1.0", "UQ0.15", "UQ1.16", "Q2.13", "UQ1.17", "UQ1.18", "UQ0.23",
+            "UQ1.23", "UQ0.24", "UQ1.25",
+        ] {
             let format: QFormat = format.parse().unwrap();
-            for bits in format.min_bits()..=format.max_bits() {
-                let text = written(|lines| lines.fixed(bits, format));
-                assert_eq!(text, shortest_of(real(bits, format)), "{bits} in {format}");
+            let step = if format.fraction_bits() > 18 { 37 } else { 1 };
+            let all: Vec<i64> = (format.min_bits()..=format.max_bits()).step_by(step).collect();
+            let mut decimals = Decimals::default();
+            for column in all.chunks(1001) {
+                decimals.of(column.iter().copied(), format);
+                for (index, &bits) in column.iter().enumerate() {
+                    let text = written(|lines| lines.fixed(&decimals, index, bits, format));
+                    assert_eq!(text, shortest_of(real(bits, format)), "{bits} in {format}");
+                }
             }
         }
     }

@@ -9,6 +9,7 @@
 
 mod answer;
 mod csv;
+mod digits;
 mod hex;
 mod lines;
 mod list;

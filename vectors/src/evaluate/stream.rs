@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::text_file::{QUESTIONS, TextError};
 use hw_model::datapath::{Datapath, Logic, Requests};
-use memchr::memchr_iter;
+use memchr::memchr;
 use thiserror::Error;
 
 use super::answer::{Answer, Question};
@@ -22,6 +22,14 @@ pub trait Dialect {
 
     /// What questions look like, for the message when there was none.
     fn wanted(&self) -> &'static str;
+
+    /// Appends the questions of the lines that a text begins with, each a question and ended by LF, and returns how many
+    /// bytes these lines have: at most so many lines, and none that needs a closer look. That is left to
+    /// [`read`](Self::read), as every line is by a dialect that has no shorter way.
+    fn begin(&mut self, text: &str, most: usize, questions: &mut Vec<Question>) -> usize {
+        let _ = (text, most, questions);
+        0
+    }
 
     /// Appends the question of a line; nothing where the line asks none (it is empty, a comment or names the columns).
     ///
@@ -137,10 +145,14 @@ impl<'a, D: Dialect> Batch<'a, D> {
             let line = std::mem::take(begun);
             return if line.is_empty() { Ok(()) } else { self.line(&line, to) };
         }
-        let mut start = 0;
-        for end in memchr_iter(b'\n', read.as_bytes()) {
-            let line = &read[start..end];
-            start = end + 1;
+        let mut rest = read;
+        loop {
+            if begun.is_empty() {
+                rest = self.lines(rest, to)?;
+            }
+            let Some(end) = memchr(b'\n', rest.as_bytes()) else { break };
+            let line = &rest[..end];
+            rest = &rest[end + 1..];
             if begun.is_empty() {
                 self.line(line, to)?;
             } else {
@@ -148,8 +160,22 @@ impl<'a, D: Dialect> Batch<'a, D> {
                 self.line(&std::mem::take(begun), to)?;
             }
         }
-        begun.push_str(&read[start..]);
+        begun.push_str(rest);
         Ok(())
+    }
+
+    /// Takes in the lines that a text begins with, as long as the dialect reads them together, and returns the rest.
+    fn lines<'t>(&mut self, mut text: &'t str, to: &mut dyn Write) -> Result<&'t str, StreamError> {
+        loop {
+            let waiting = self.questions.len();
+            let length = self.dialect.begin(text, SIDE_BY_SIDE - waiting, &mut self.questions);
+            self.line += (self.questions.len() - waiting) as u64;
+            text = &text[length..];
+            if self.questions.len() < SIDE_BY_SIDE {
+                return Ok(text);
+            }
+            self.answer(to)?;
+        }
     }
 
     fn line(&mut self, line: &str, to: &mut dyn Write) -> Result<(), StreamError> {
