@@ -3,12 +3,13 @@
 use crate::decimal::Decimal;
 use crate::stimulus_file::{bits, exponent, real};
 use hw_model::datapath::Datapath;
+use hw_model::datapath::front_end::Region;
 use hw_model::format::{Overflow, QFormat};
 use hw_model::quantise::x_bits;
 
 use super::answer::{Answer, Question, References};
 use super::digits::Decimals;
-use super::lines::{Room, Texts};
+use super::lines::{Room, Texts, Word};
 use super::stream::Dialect;
 
 /// What the columns of a question may be.
@@ -18,6 +19,10 @@ const KNOWN: &str = "the first line names the columns: n or address, and x or x_
 pub struct Csv<'a> {
     datapath: &'a Datapath,
     columns: Option<Columns>,
+    /// The exponent of each address, and its text.
+    exponents: Vec<(f64, Word)>,
+    /// The name of each region, by its number.
+    regions: [Word; 3],
     references: References,
     decimals: [Decimals; 2],
     texts: [Texts; 2],
@@ -79,6 +84,8 @@ impl<'a> Csv<'a> {
         Self {
             datapath,
             columns: None,
+            exponents: datapath.rom().exponents().iter().map(|n| (n, Word::number(n))).collect(),
+            regions: [Region::Zero, Region::Polynomial, Region::Tail].map(|region| Word::new(region.name())),
             references: References::default(),
             decimals: Default::default(),
             texts: Default::default(),
@@ -204,7 +211,10 @@ impl Dialect for Csv<'_> {
         intensity.of(answers.iter().map(|answer| answer.intensity), output);
         let mut lines = self.room.lines(answers.len());
         for (index, answer) in answers.iter().enumerate() {
-            lines.exponent(answer.question.exponent);
+            match self.exponents.get(answer.question.address as usize) {
+                Some((n, word)) if Some(*n) == answer.question.exponent => lines.word(word),
+                _ => lines.exponent(answer.question.exponent),
+            }
             lines.byte(b',');
             lines.fixed(x, index, answer.question.x, input);
             lines.byte(b',');
@@ -214,7 +224,7 @@ impl Dialect for Csv<'_> {
             lines.byte(b',');
             lines.number(error_ulp[index]);
             lines.byte(b',');
-            lines.text(answer.region.name());
+            lines.word(&self.regions[answer.region as usize]);
             lines.byte(b',');
             lines.whole(answer.intensity);
             lines.byte(b',');

@@ -28,6 +28,34 @@ fn shortest(buffer: &mut zmij::Buffer, number: f64) -> &str {
     buffer.format_finite(number)
 }
 
+/// A short text that is written often.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Word {
+    bytes: [u8; WORD],
+    count: usize,
+}
+
+/// The most bytes of a [`Word`], such as an f64 from 1 to 10¹⁵ without an exponent.
+const WORD: usize = 24;
+
+impl Word {
+    /// Of a text, without what is too long.
+    pub(super) fn new(text: &str) -> Self {
+        let mut bytes = [0; WORD];
+        let count = bytes.iter_mut().zip(text.bytes()).map(|(to, byte)| *to = byte).count();
+        Self { bytes, count }
+    }
+
+    /// Of a number from 1 to 10¹⁵.
+    pub(super) fn number(number: f64) -> Self {
+        Self::new(without_point(shortest(&mut zmij::Buffer::new(), number)))
+    }
+}
+
+fn without_point(text: &str) -> &str {
+    text.strip_suffix(".0").unwrap_or(text)
+}
+
 /// The most bytes of a line: eight fields, none longer than 24, and what separates them.
 const LONGEST: usize = 200;
 /// The most bytes that are written at a time.
@@ -68,12 +96,12 @@ impl Lines<'_> {
     /// A number as text, without `.0`.
     #[inline(always)]
     pub(super) fn number(&mut self, text: &str) {
-        self.text(text.strip_suffix(".0").unwrap_or(text));
+        self.text(without_point(text));
     }
 
     /// A short text.
     #[inline(always)]
-    pub(super) fn text(&mut self, text: &str) {
+    fn text(&mut self, text: &str) {
         let text = text.as_bytes();
         let place = self.place();
         match text.len() {
@@ -84,13 +112,17 @@ impl Lines<'_> {
         self.end += text.len();
     }
 
+    /// A short text.
+    #[inline(always)]
+    pub(super) fn word(&mut self, word: &Word) {
+        self.place()[..WORD].copy_from_slice(&word.bytes);
+        self.end += word.count;
+    }
+
     /// An exponent, where there is one.
-    #[inline]
     pub(super) fn exponent(&mut self, exponent: Option<f64>) {
-        let Some(exponent) = exponent else { return };
-        match exponent as u16 {
-            whole if f64::from(whole) == exponent => self.whole(whole.into()),
-            _ => self.number(shortest(&mut zmij::Buffer::new(), exponent)),
+        if let Some(exponent) = exponent {
+            self.number(shortest(&mut zmij::Buffer::new(), exponent));
         }
     }
 
@@ -189,6 +221,8 @@ mod tests {
         ) {
             prop_assert_eq!(written(|lines| lines.whole(whole)), whole.to_string());
             prop_assert_eq!(written(|lines| lines.exponent(Some(n))), shortest_of(n));
+            prop_assert_eq!(written(|lines| lines.word(&Word::number(n))), shortest_of(n));
+            prop_assert_eq!(written(|lines| lines.word(&Word::new("polynomial"))), "polynomial");
             prop_assert_eq!(written(|lines| lines.exponent(None)), "");
             prop_assert_eq!(written(|lines| lines.text(&text)), text);
         }
