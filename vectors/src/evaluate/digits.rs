@@ -64,7 +64,7 @@ const ALL_PARTS: u64 = (1 << PARTS) - 1;
 /// 2⁻⁵⁴ in parts of 10⁻¹⁷, rounded down.
 const NEAR: u64 = 10_u64.pow(17) >> (54 - PARTS);
 
-/// The numbers stand where their heads are wanted. They are brought to 24 fraction bits by so many places.
+/// Writes the [`shortest`] decimals of all numbers, which stand where their heads are wanted.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
 fn write_all(places: u32, heads: &mut [u64], high: &mut [u64], low: &mut [u64]) {
     for ((head, high), low) in heads.iter_mut().zip(high).zip(low) {
@@ -72,6 +72,8 @@ fn write_all(places: u32, heads: &mut [u64], high: &mut [u64], low: &mut [u64]) 
     }
 }
 
+/// The head and the digits of a number, which is brought to 24 fraction bits by so many places.
+///
 /// An f64 from 2⁻ᵏ to 2¹⁻ᵏ is the nearest f64 of every number within 2⁻⁵³⁻ᵏ of it. From 1/16 up that is more than half
 /// of 10⁻¹⁷, so the shortest decimal is a multiple of 10⁻¹⁷: or of 10⁻¹⁶ or 10⁻¹⁵ where the nearest of those is so
 /// near. None is exactly so near, which would take more decimals; and a power of two, next to which f64 are nearer, is

@@ -23,7 +23,7 @@ pub trait Dialect {
     /// What questions look like, for the message when there was none.
     fn wanted(&self) -> &'static str;
 
-    /// Appends the questions of the lines that a text begins with, each a question and ended by LF, and returns how many
+    /// Appends the questions of the lines that a text begins with, each a question ended by LF, and returns how many
     /// bytes these lines have: at most so many lines, and none that needs a closer look. That is left to
     /// [`read`](Self::read), as every line is by a dialect that has no shorter way.
     fn begin(&mut self, text: &str, most: usize, questions: &mut Vec<Question>) -> usize {
