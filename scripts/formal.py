@@ -429,7 +429,7 @@ def main():
         parser.error(f"not a preset: {', '.join(sorted(unknown))}")
     prepare_tools()
     rows, good = [], True
-    print(f"{'preset':10}{'property':22}{'planted bug':26}{'result':30}{'seconds':>8}")
+    print(f"{'preset':20}{'property':22}{'planted bug':26}{'result':30}{'seconds':>8}")
     # Where nothing is named: every preset, and the examples of other degrees and numbers of segments.
     named = args.preset or args.config
     configurations = [(path.stem, ["--config", str(path)]) for path in (args.config or ([] if named else EXAMPLES))]
@@ -448,7 +448,7 @@ def main():
                 seconds = time.monotonic() - start
                 good &= as_it_should
                 name = bug.name if bug else ""
-                print(f"{preset:10}{prop.name:22}{name:26}{words:30}{seconds:8.1f}", flush=True)
+                print(f"{preset:20}{prop.name:22}{name:26}{words:30}{seconds:8.1f}", flush=True)
                 rows.append([preset, prop.name, name, words, f"{seconds:.1f}"])
     if args.out:
         args.out.mkdir(parents=True, exist_ok=True)

@@ -32,7 +32,8 @@ DOCUMENT = ROOT / "docs/SYNTHESIS.md"
 MARKERS = "<!-- table: made by `make synth` -->", "<!-- end of table -->"
 
 # Beside the presets.
-EXAMPLES = {"compact_12_bit": ["--config", "docs/examples/compact_12_bit.json"]}
+EXAMPLES = {name: ["--config", f"docs/examples/{name}.json"] for name in [
+    "compact_12_bit", "compact_deep", "precise_deep", "paper_deep", "compact_12_bit_deep"]}
 # Scenes, each with what `blysk specialise` leaves of preset paper for it.
 SCENES = ["close_up", "low_exponents"]
 SEEDS = [1, 2, 3]

@@ -106,7 +106,8 @@ module blysk #(
 
   // ---- Handshake, and the slices before and behind the ranks --------------------------------------
   logic [RANKS-1:0]         load;
-  logic                     request_valid, request_ready, slice_ready, result_valid, result_ready, result_ready_d;
+  logic                     request_valid, request_ready, slice_ready, slice_ready_d;
+  logic                     result_valid, result_ready, result_ready_d;
   logic [ADDRESS_WIDTH-1:0] request_address;
   logic [INPUT_WIDTH-1:0]   request_x;
   logic [OUTPUT_WIDTH-1:0]  result_intensity;
@@ -118,7 +119,8 @@ module blysk #(
     .WIDTH(ADDRESS_WIDTH + INPUT_WIDTH), .STORED(INPUT_SLICE), .RESET_ASYNCHRONOUS(ASYNCHRONOUS)
   ) input_slice (
     .clk_i, .rst_i(rst),
-    .in_valid_i(in_valid_i && !rst), .in_ready_o(slice_ready), .in_ready_d_o(), .value_i({address_i, x_i}),
+    .in_valid_i(in_valid_i && !rst), .in_ready_o(slice_ready), .in_ready_d_o(slice_ready_d),
+    .value_i({address_i, x_i}),
     .out_valid_o(request_valid), .out_ready_i(request_ready), .value_o({request_address, request_x})
   );
 
@@ -139,6 +141,10 @@ module blysk #(
     .value_i({result_status, result_intensity}),
     .out_valid_o, .out_ready_i, .value_o({status_o, intensity_o})
   );
+
+  // Nobody before the pipeline asks for its ready a cycle ahead.
+  logic unused_ready;
+  assign unused_ready = &{1'b0, slice_ready_d};
 
   // ---- Rank 0: fetch ------------------------------------------------------------------------------
   logic [INPUT_WIDTH-1:0]  x_q, x;

@@ -61,7 +61,8 @@ pub struct Reset {
     pub kind: ResetKind,
     /// The level at which it resets.
     pub active: Level,
-    /// Whether `in_ready_o` may be high during a reset, which spares a gate behind it. Nothing is taken then all the same.
+    /// Whether `in_ready_o` may be high during a reset, which spares a gate behind it. Nothing is taken then all the
+    /// same.
     pub ready: bool,
 }
 

@@ -408,8 +408,8 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         (Outputs { in_ready: enable && !reset, out_valid, intensity, status }, edge)
     }
 
-    /// The combinational phase of the ranks alone. Rule 2, written out: a rank advances when the output is taken or any rank from it on is
-    /// empty, that is, when it is not above the last empty one.
+    /// The combinational phase of the ranks alone. Rule 2, written out: a rank advances when the output is taken or any
+    /// rank from it on is empty, that is, when it is not above the last empty one.
     #[inline(always)]
     fn cycle_of_ranks(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
         let Inputs { reset, address, x, .. } = *inputs;

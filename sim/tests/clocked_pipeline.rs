@@ -5,6 +5,7 @@ use std::convert::Infallible;
 use hw_model::config::Config;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
+use hw_model::handshake::ReadySlice;
 use hw_model::presets;
 use proptest::prelude::*;
 use sim::pipeline::{Inputs, Outputs, Pipeline};
@@ -150,6 +151,36 @@ fn bubbles_collapse_behind_a_stall() {
     assert!(pipeline.ranks().iter().all(|rank| rank.valid));
     let full = Inputs { in_valid: true, out_ready: true, ..Inputs::default() };
     assert!(pipeline.tick(&full).in_ready, "a full pipeline takes one as it delivers one");
+}
+
+/// A slice adds a cycle, and room for two more.
+#[test]
+fn a_register_slice_delays_by_a_cycle_and_holds_two() {
+    for (slice, entries) in [(None, 0), (Some(ReadySlice::Input), 2), (Some(ReadySlice::Output), 2)] {
+        let mut config = small().config().clone();
+        config.pipelining.ready_slice = slice;
+        let design = Design::new(config).unwrap();
+        let datapath = design.datapath();
+        assert_eq!(datapath.latency(), datapath.rank_count() + entries / 2);
+        let mut pipeline = Pipeline::new(datapath);
+        // Never taken: requests go in until all is full.
+        let waiting = Inputs { in_valid: true, address: 2, x: 100, ..Inputs::default() };
+        let mut first = None;
+        let mut taken = 0;
+        for cycle in 0..3 * datapath.capacity() {
+            let outputs = pipeline.tick(&waiting);
+            taken += usize::from(outputs.in_ready);
+            first = first.or(outputs.out_valid.then_some(cycle));
+        }
+        assert_eq!(first, Some(datapath.latency()), "{slice:?}");
+        assert_eq!(taken, datapath.rank_count() + entries, "{slice:?}");
+        assert_eq!(pipeline.in_flight() as usize, datapath.capacity());
+        // Taken: all of them come out, one a cycle.
+        let taking = Inputs { out_ready: true, ..Inputs::default() };
+        let results = (0..datapath.capacity()).filter(|_| pipeline.tick(&taking).out_valid).count();
+        assert_eq!(results, datapath.capacity(), "{slice:?}");
+        assert!(pipeline.is_empty());
+    }
 }
 
 #[test]

@@ -1,5 +1,5 @@
-//! `scripts/synth.py --same-since` takes the table of synthesis over where netlists are the same: names do not count, and
-//! everything else does.
+//! `scripts/synth.py --same-since` takes the table of synthesis over where netlists are the same: names do not count,
+//! and everything else does.
 
 use std::fs;
 use std::process::Command;

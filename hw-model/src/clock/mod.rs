@@ -1,8 +1,8 @@
 //! A clock to aim at: the ranks of registers that follow from a frequency and a device.
 //!
 //! What lies between two ranks of registers takes its time, and how much of it depends on the device. A table of delays
-//! ([`Delays`]) says what the parts take there, [`paths`] adds up what lies in each rank, and [`fewest`] looks for the
-//! fewest ranks that reach the clock. It is an estimate: what a placement gives differs by some per cent
+//! ([`Delays`]) says what the parts take there, [`paths`] adds up what lies in each rank, and a design with a [`Clock`] has
+//! the fewest ranks that reach it. It is an estimate: what a placement gives differs by some per cent
 //! (`docs/SYNTHESIS.md` has both side by side).
 
 mod choice;
@@ -15,7 +15,9 @@ use crate::config::ConfigError;
 use crate::datapath::Datapath;
 use crate::design::DesignError;
 
-pub use choice::{Ranks, Unreached, fewest};
+pub(crate) use choice::Ranks;
+pub use choice::Unreached;
+use choice::fewest;
 pub use delays::{Delays, Device};
 pub use paths::{Path, longest, paths};
 
@@ -44,12 +46,12 @@ impl Clock {
         self.device.delays()?.check()
     }
 
-    /// The data path with the fewest ranks that reach the clock, where a divider finds `most_quotient_bits` in a cycle
-    /// at the most.
+    /// Gives a data path the fewest ranks that reach the clock, where a divider finds `most_quotient_bits` in a cycle at
+    /// the most.
     ///
     /// # Errors
     /// When no ranks do: says the greatest clock that some reach, and what limits it.
-    pub(crate) fn reached_by(&self, datapath: &Datapath, most_quotient_bits: u32) -> Result<Datapath, DesignError> {
+    pub(crate) fn reach(&self, datapath: &mut Datapath, most_quotient_bits: u32) -> Result<(), DesignError> {
         let delays = self.device.delays().map_err(|problem| ConfigError::Field { field: "clock", problem })?;
         fewest(datapath, most_quotient_bits, &delays, self.mhz)
             .map_err(|greatest| Unreached { wanted: self.mhz, device: self.device.name().to_owned(), greatest }.into())

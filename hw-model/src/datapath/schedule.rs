@@ -62,19 +62,17 @@ impl Datapath {
         self.rank_count() + self.control.slice_entries()
     }
 
-    /// The same data path with these ranks.
+    /// Gives the data path these ranks.
     ///
     /// # Errors
     /// When a register would be wider than one can be; says what would be right.
-    pub fn with_ranks(&self, ranks: &Ranks) -> Result<Self, String> {
-        let mut datapath = self.clone();
-        datapath.pipelining = ranks.pipelining;
-        datapath.control.slice = ranks.pipelining.ready_slice;
-        if let Some(divider) = &mut datapath.divider {
+    pub(crate) fn set_ranks(&mut self, ranks: &Ranks) -> Result<(), String> {
+        self.pipelining = ranks.pipelining;
+        self.control.slice = ranks.pipelining.ready_slice;
+        if let Some(divider) = &mut self.divider {
             divider.digits_per_stage = ranks.quotient_bits;
         }
-        datapath.check_pipelining()?;
-        Ok(datapath)
+        self.check_pipelining()
     }
 
     /// Bits of registers in all ranks, valid flags included.

@@ -93,7 +93,7 @@ impl Design {
         let refused = |problem| ConfigError::Field { field: "pipelining", problem };
         datapath.check_pipelining().map_err(refused)?;
         if let Some(clock) = &config.clock {
-            datapath = clock.reached_by(&datapath, config.quotient_bits_per_stage)?;
+            clock.reach(&mut datapath, config.quotient_bits_per_stage)?;
         }
         doubt::settle(parts.doubts, &datapath)?;
         Ok(Self { config, fitted, rows, bounds: parts.bounds, datapath })

@@ -3,8 +3,9 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
+use hw_model::clock::Clock;
 use hw_model::config::{Config, Cut, Form, Tail};
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
@@ -13,6 +14,7 @@ use hw_model::rounding::Rounding;
 use vectors::limits::Sweep;
 
 use super::bar::Bar;
+use super::clock;
 use super::out::{Out, Outcome};
 use super::output;
 use super::report::bound;
@@ -52,12 +54,27 @@ pub(super) struct Args {
     /// How many designs are narrowed.
     #[arg(long, default_value_t = 4, value_parser = clap::value_parser!(u8).range(1..=64))]
     finalists: u8,
+    /// A clock that the design reaches on --device, in MHz, by as many ranks of registers as that takes.
+    #[arg(long, value_name = "MHZ", allow_negative_numbers = true, requires = "device")]
+    clock_mhz: Option<f64>,
+    /// The device of --clock-mhz: ecp5, up5k, or a JSON file with its delays in nanoseconds.
+    #[arg(long, value_name = "NAME|FILE", requires = "clock_mhz")]
+    device: Option<String>,
     /// Write the configuration to this file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// How to print the design and its witnesses.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
+}
+
+impl Args {
+    fn clock(&self) -> anyhow::Result<Option<Clock>> {
+        let Some((mhz, device)) = self.clock_mhz.zip(self.device.as_deref()) else { return Ok(None) };
+        let clock = Clock { mhz, device: clock::device(device)? };
+        clock.check().map_err(anyhow::Error::msg).context("--clock-mhz, --device")?;
+        Ok(Some(clock))
+    }
 }
 
 fn over(text: &str) -> Result<Over, String> {
@@ -77,6 +94,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
         error: args.error,
         over: args.range,
         finalists: args.finalists.into(),
+        clock: args.clock()?,
     };
     let samples = check(&request)?;
     // Begun before the work, so that an unwritable place is found at once.
@@ -96,7 +114,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     write_folded(
         out,
         "real: the greatest error in real numbers. cut: the polynomial ends where x^n is this. too far: more than \
-         allowed. no widths: none are proved to keep what the real error leaves. proved: the widths are, and \
+         allowed. no widths: none are proved to keep what the real error leaves, or no ranks reach the clock. proved: the widths are, and \
          their hardware is no candidate for narrowing.",
     )?;
     writeln!(out)?;

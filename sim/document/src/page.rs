@@ -11,7 +11,7 @@ use super::facts::Facts;
 use super::scenario::Scenario;
 use super::table::Table;
 use super::words::places;
-use super::{control, examples, flip_flops, lines, paths, ports, registers};
+use super::{clock, control, examples, flip_flops, lines, paths, ports, registers};
 
 #[derive(Template)]
 #[template(path = "hardware.md", escape = "none")]
@@ -37,6 +37,7 @@ struct Page<'a> {
     requests: Table,
     passages: Table,
     differences: Vec<String>,
+    estimates: Table,
 }
 
 /// The page of a configuration. `source` is the option that chooses it.
@@ -73,6 +74,7 @@ pub(super) fn page(
         requests: examples::requests(design, first),
         passages: examples::passages(datapath, first),
         differences: control::differences(datapath),
+        estimates: clock::estimates(datapath),
     };
     Ok(page.render()? + "\n")
 }

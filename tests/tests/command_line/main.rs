@@ -6,6 +6,7 @@
 mod cases;
 mod certify;
 mod check;
+mod clock;
 mod closed_output;
 mod coefficients;
 mod coverage;

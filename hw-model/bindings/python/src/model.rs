@@ -256,9 +256,9 @@ impl Model {
 
     /// The greatest errors against x^n, with every exponent and every representable x counted.
     ///
-    /// The first call goes through all of them (2^31 points for a preset) on all cores, which cannot be interrupted; the
-    /// model keeps what it found. It is what `blysk certify --preset` claims
-    /// before its certificate is checked. Raises `InputError` where there are too many points, or a format has more
+    /// The first call goes through all of them (2^31 points for a preset) on all cores, which cannot be interrupted;
+    /// the model keeps what it found. It is what `blysk certify --preset` claims before its certificate is checked.
+    /// Raises `InputError` where there are too many points, or a format has more
     /// than 53 fraction bits.
     fn bound(&self, py: Python<'_>) -> PyResult<Claim> {
         if let Some(found) = self.bound.get() {

@@ -125,7 +125,7 @@ fn plain(request: &Request) -> Config {
         coefficient_steps: Vec::new(),
         domain: Vec::new(),
         pipelining: Default::default(),
-        clock: None,
+        clock: request.clock.clone(),
         handshake: Default::default(),
         reset: Default::default(),
     }

@@ -1,5 +1,6 @@
 //! What is asked of the search.
 
+use hw_model::clock::Clock;
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
 
@@ -37,4 +38,6 @@ pub struct Request {
     pub over: Over,
     /// How many designs are narrowed.
     pub finalists: usize,
+    /// A clock that the design reaches, by as many ranks of registers as that takes.
+    pub clock: Option<Clock>,
 }
