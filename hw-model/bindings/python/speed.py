@@ -82,7 +82,7 @@ def speeds(presets):
     row("preset", "what", "Rust", "Python", "Python to Rust", "beside the RTL in Verilator")
     row(*["---"] * 6)
     for preset in presets:
-        [rtl] = told(["--bin", "verilated"], [preset])
+        [rtl] = told(["--package", "blysk-tests", "--bin", "verilated"], [preset])
         [rust] = told(["--package", "model", "--example", "speed"], [preset])
         python, name = measure(preset), f"`{preset}`"
 

@@ -11,26 +11,33 @@ use super::paths::{Path, longest, paths};
 
 /// Ranks that a data path can have, and the quotient bits of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Ranks {
+struct Ranks {
     /// The ranks beyond the least, with a register slice or none.
-    pub(crate) pipelining: Pipelining,
+    pipelining: Pipelining,
     /// Quotient bits that the divider finds in a clock cycle.
-    pub(crate) quotient_bits: u32,
+    quotient_bits: u32,
 }
 
-/// No ranks reach the clock.
+/// Why ranks do not follow from a clock.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error(
-    "{wanted} MHz cannot be reached on {device}: ask for {} or less. What limits is {}, with {:.1} ns",
-    greatest.mhz().floor(), greatest.words(), greatest.ns
-)]
-pub struct Unreached {
-    /// The clock that was asked for, in MHz.
-    pub wanted: f64,
-    /// The device.
-    pub device: String,
-    /// The longest path where ranks stand wherever they shorten one.
-    pub greatest: Path,
+#[non_exhaustive]
+pub enum ClockError {
+    /// There is no such table of delays.
+    #[error("{0}")]
+    Table(String),
+    /// No ranks reach the clock.
+    #[error(
+        "{wanted} MHz cannot be reached on {device}: ask for {} or less. What limits is {}, with {:.1} ns",
+        greatest.mhz().floor(), greatest.words(), greatest.ns
+    )]
+    Unreached {
+        /// The clock that was asked for, in MHz.
+        wanted: f64,
+        /// The device.
+        device: String,
+        /// The longest path where ranks stand wherever they shorten one.
+        greatest: Path,
+    },
 }
 
 /// Gives the data path the fewest ranks with which no path is longer than the clock allows, and of these the ones with
@@ -42,7 +49,7 @@ pub(crate) fn fewest(datapath: &mut Datapath, most_quotient_bits: u32, delays: &
     let mut best: Option<((usize, u64), Ranks)> = None;
     let mut shortest: Option<Path> = None;
     for ranks in all(datapath, most_quotient_bits) {
-        if datapath.set_ranks(&ranks).is_err() {
+        if datapath.set_ranks(ranks.pipelining, ranks.quotient_bits).is_err() {
             continue;
         }
         let Some(path) = longest(paths(datapath, delays)) else { continue };
@@ -56,7 +63,7 @@ pub(crate) fn fewest(datapath: &mut Datapath, most_quotient_bits: u32, delays: &
             shortest = Some(path);
         }
     }
-    let chosen = best.filter(|(_, ranks)| datapath.set_ranks(ranks).is_ok());
+    let chosen = best.filter(|(_, ranks)| datapath.set_ranks(ranks.pipelining, ranks.quotient_bits).is_ok());
     chosen.map(drop).ok_or_else(|| shortest.unwrap_or_default())
 }
 
@@ -94,9 +101,12 @@ mod tests {
     /// No choice with less latency, or as much and fewer bits, reaches the clock: looked at one by one.
     #[test]
     fn nothing_that_reaches_the_clock_is_less() {
-        for (preset, device, mhz) in
-            [("compact", "ecp5", 90.0), ("precise", "ecp5", 110.0), ("schlick", "ecp5", 90.0), ("compact", "up5k", 30.0)]
-        {
+        for (preset, device, mhz) in [
+            ("compact", "ecp5", 90.0),
+            ("precise", "ecp5", 110.0),
+            ("schlick", "ecp5", 90.0),
+            ("compact", "up5k", 30.0),
+        ] {
             let delays = Device::Named(device.to_owned()).delays().unwrap();
             let design = Design::preset(preset).unwrap();
             let mut chosen = design.datapath().clone();
@@ -108,7 +118,7 @@ mod tests {
             let mut other = design.datapath().clone();
             let mut looked_at = 0;
             for ranks in all(design.datapath(), 2) {
-                if other.set_ranks(&ranks).is_ok() {
+                if other.set_ranks(ranks.pipelining, ranks.quotient_bits).is_ok() {
                     assert!(!fast(&other) || cost(&other) >= cost(&chosen), "{preset}: {ranks:?}");
                     looked_at += 1;
                 }
@@ -125,7 +135,8 @@ mod tests {
         // As fast as it says, and no faster.
         assert!(fewest(&mut datapath, 2, &delays, limit.mhz() * 0.999).is_ok());
         assert!(fewest(&mut datapath, 2, &delays, limit.mhz() * 1.001).is_err());
-        let said = Unreached { wanted: 1000.0, device: "ecp5".to_owned(), greatest: limit.clone() }.to_string();
+        let device = "ecp5".to_owned();
+        let said = ClockError::Unreached { wanted: 1000.0, device, greatest: limit.clone() }.to_string();
         assert!(said.contains(&limit.words()) && !limit.parts.is_empty(), "{said}");
     }
 }

@@ -11,12 +11,9 @@ mod paths;
 
 use serde::{Deserialize, Serialize};
 
-use crate::config::ConfigError;
 use crate::datapath::Datapath;
-use crate::design::DesignError;
 
-pub(crate) use choice::Ranks;
-pub use choice::Unreached;
+pub use choice::ClockError;
 use choice::fewest;
 pub use delays::{Delays, Device};
 pub use paths::{Path, longest, paths};
@@ -51,9 +48,11 @@ impl Clock {
     ///
     /// # Errors
     /// When no ranks do: says the greatest clock that some reach, and what limits it.
-    pub(crate) fn reach(&self, datapath: &mut Datapath, most_quotient_bits: u32) -> Result<(), DesignError> {
-        let delays = self.device.delays().map_err(|problem| ConfigError::Field { field: "clock", problem })?;
-        fewest(datapath, most_quotient_bits, &delays, self.mhz)
-            .map_err(|greatest| Unreached { wanted: self.mhz, device: self.device.name().to_owned(), greatest }.into())
+    pub(crate) fn reach(&self, datapath: &mut Datapath, most_quotient_bits: u32) -> Result<(), ClockError> {
+        let delays = self.device.delays().map_err(ClockError::Table)?;
+        fewest(datapath, most_quotient_bits, &delays, self.mhz).map_err(|greatest| {
+            let device = self.device.name().to_owned();
+            ClockError::Unreached { wanted: self.mhz, device, greatest }
+        })
     }
 }

@@ -11,7 +11,6 @@
 //!
 //! [`Pipelining`] says how many ranks the parts take; nothing else counts them.
 
-use crate::clock::Ranks;
 use crate::handshake::Control;
 use crate::pipelining::{LineStep, Pipelining};
 use crate::registers::Register;
@@ -62,15 +61,15 @@ impl Datapath {
         self.rank_count() + self.control.slice_entries()
     }
 
-    /// Gives the data path these ranks.
+    /// Gives the data path these ranks beyond the least, and as many quotient bits in a cycle.
     ///
     /// # Errors
     /// When a register would be wider than one can be; says what would be right.
-    pub(crate) fn set_ranks(&mut self, ranks: &Ranks) -> Result<(), String> {
-        self.pipelining = ranks.pipelining;
-        self.control.slice = ranks.pipelining.ready_slice;
+    pub(crate) fn set_ranks(&mut self, pipelining: Pipelining, quotient_bits: u32) -> Result<(), String> {
+        self.pipelining = pipelining;
+        self.control.slice = pipelining.ready_slice;
         if let Some(divider) = &mut self.divider {
-            divider.digits_per_stage = ranks.quotient_bits;
+            divider.digits_per_stage = quotient_bits;
         }
         self.check_pipelining()
     }

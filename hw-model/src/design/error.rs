@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use crate::budget::BudgetError;
-use crate::clock::Unreached;
+use crate::clock::ClockError;
 use crate::config::ConfigError;
 use crate::fit::FitError;
 use crate::presets;
@@ -28,9 +28,9 @@ pub enum DesignError {
     /// No widths keep the budget, or a stated width is too small.
     #[error(transparent)]
     Budget(#[from] BudgetError),
-    /// No ranks of registers reach the clock.
+    /// No ranks of registers follow from the clock.
     #[error("field `clock`: {0}")]
-    Clock(#[from] Unreached),
+    Clock(#[from] ClockError),
     /// A ROM field does not hold the value of a row.
     #[error("ROM field {field} at n = {exponent}: {source}")]
     Quantise {

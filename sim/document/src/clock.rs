@@ -15,12 +15,7 @@ pub(super) fn estimates(datapath: &Datapath) -> Table {
         let Some(longest) = longest(found.clone()) else { continue };
         for path in found {
             let mark = |text: String| if path == longest { format!("**{text}**") } else { text };
-            table.row([
-                format!("`{name}`"),
-                path.words(),
-                mark(places(path.ns, 1)),
-                mark(places(path.mhz(), 0)),
-            ]);
+            table.row([format!("`{name}`"), path.words(), mark(places(path.ns, 1)), mark(places(path.mhz(), 0))]);
         }
     }
     table

@@ -74,7 +74,7 @@ fn a_clock_in_a_configuration_becomes_its_ranks() {
     let bench = bench!();
     bench.write("delays.json", DELAYS);
     bench.write("clocked.json", with("clock", json!({"mhz": 200, "device": "delays.json"})));
-    bench.good("rtl --config clocked.json --count 16 --out clocked");
+    let _written = bench.good("rtl --config clocked.json --count 16 --out clocked");
     let text = bench.good("clock --config clocked.json --device delays.json --mhz 200");
     let stated = text.lines().find_map(|line| line.strip_prefix("\"pipelining\": ")).unwrap();
     assert_ne!(stated, "{}");
@@ -82,7 +82,7 @@ fn a_clock_in_a_configuration_becomes_its_ranks() {
     let bits = text.lines().find_map(|line| line.strip_prefix("\"quotient_bits_per_stage\": ")).unwrap();
     config["quotient_bits_per_stage"] = bits.parse::<u32>().unwrap().into();
     bench.write("stated.json", config.to_string());
-    bench.good("rtl --config stated.json --count 16 --out stated");
+    let _written = bench.good("rtl --config stated.json --count 16 --out stated");
     let package = |of: &str| {
         let text = std::fs::read_to_string(bench.path(of).join("blysk_pkg.sv")).unwrap();
         text.lines().filter(|line| !line.starts_with("//")).collect::<Vec<_>>().join("\n")
@@ -110,8 +110,11 @@ fn what_is_no_clock_is_refused() {
         (json!({"mhz": 50, "device": "ecp6"}), "no table of delays is called \"ecp6\""),
         (json!({"mhz": 50}), "missing field `device`"),
         (json!({"mhz": 50, "device": "gone.json"}), "gone.json"),
-        (json!({"mhz": 50, "device": {"register": -1, "rom": 1, "lut": 1, "add": 1, "carry": 0, "multiply": 1,
-            "enable": 1, "multiplier_bits": 18}}), "\"register\" is a delay in nanoseconds"),
+        (
+            json!({"mhz": 50, "device": {"register": -1, "rom": 1, "lut": 1, "add": 1, "carry": 0, "multiply": 1,
+            "enable": 1, "multiplier_bits": 18}}),
+            "\"register\" is a delay in nanoseconds",
+        ),
     ] {
         bench.write("clocked.json", with("clock", clock.clone()));
         let run = bench.run("rom --config clocked.json");
@@ -131,8 +134,8 @@ fn a_search_keeps_the_clock() {
     let bench = bench!();
     bench.write("delays.json", DELAYS);
     let search = "design --exponents 1..=4 --input UQ1.8 --output UQ1.8 --error 0.03 --finalists 1";
-    bench.good(&format!("{search} --clock-mhz 240 --device delays.json --out fast.json"));
-    bench.good(&format!("{search} --out plain.json"));
+    let _written = bench.good(&format!("{search} --clock-mhz 240 --device delays.json --out fast.json"));
+    let _written = bench.good(&format!("{search} --out plain.json"));
     let read = |name: &str| -> Value { serde_json::from_slice(&std::fs::read(bench.path(name)).unwrap()).unwrap() };
     let (fast, plain) = (read("fast.json"), read("plain.json"));
     assert_eq!(fast["clock"]["mhz"], 240.0);

@@ -26,7 +26,8 @@ fn exported_functions_are_guarded() {
     for (name, text) in sources() {
         for function in text.split("\n#[unsafe(no_mangle)]\n").skip(1) {
             let body = function.split("\n}").next().expect("a body");
-            let guarded = ["guard(", "Model::make(", "text(scoreboard", "show(pipeline"].iter().any(|call| body.contains(call));
+            let guarded =
+                ["guard(", "Model::make(", "text(scoreboard", "show(pipeline"].iter().any(|call| body.contains(call));
             assert!(guarded || plain.iter().any(|plain| body.contains(plain)), "{name}: {body}");
             seen += 1;
         }
