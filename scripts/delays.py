@@ -110,16 +110,15 @@ def fit(equations, clocks):
 
 
 def least_squares(equations, values, rounds):
-    """One delay after the other."""
+    """One delay after the other, from the sums over all equations."""
+    every = range(len(NAMES))
+    among = [[sum(weight * row[i] * row[k] for row, _, weight in equations) for i in every] for k in every]
+    wanted = [sum(weight * row[k] * ns for row, ns, weight in equations) for k in every]
     for _ in range(rounds):
-        for k in range(len(NAMES)):
-            above = below = 0.0
-            for row, ns, weight in equations:
-                rest = ns - sum(c * v for i, (c, v) in enumerate(zip(row, values)) if i != k)
-                above += weight * row[k] * rest
-                below += weight * row[k] * row[k]
-            if below:
-                values[k] = max(0.0, above / below)
+        for k in every:
+            rest = wanted[k] - sum(among[k][i] * values[i] for i in every if i != k)
+            if among[k][k]:
+                values[k] = max(0.0, rest / among[k][k])
     return values
 
 
@@ -176,7 +175,8 @@ def main():
                     equations.append((row, ns, (ns / longest) ** 4 / ns**2))
         if not equations:
             sys.exit(f"delays: no placement for {device}")
-        table = {key: round(value, 3) for key, value in zip(NAMES, fit(equations, clocks))} | {"multiplier_bits": BITS[device]}
+        fitted = {key: round(value, 3) for key, value in zip(NAMES, fit(equations, clocks))}
+        table = fitted | {"multiplier_bits": BITS[device]}
         file.write_text(json.dumps(table, indent=2) + "\n")
         print(f"{file.name}: {table}")
 

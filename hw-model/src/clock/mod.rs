@@ -1,8 +1,8 @@
 //! A clock to aim at: the ranks of registers that follow from a frequency and a device.
 //!
 //! What lies between two ranks of registers takes its time, and how much of it depends on the device. A table of delays
-//! ([`Delays`]) says what the parts take there, [`paths`] adds up what lies in each rank, and a design with a [`Clock`] has
-//! the fewest ranks that reach it. It is an estimate: what a placement gives differs by some per cent
+//! ([`Delays`]) says what the parts take there, [`paths`] adds up what lies in each rank, and a design with a [`Clock`]
+//! has the fewest ranks that reach it. It is an estimate: what a placement gives differs by some per cent
 //! (`docs/SYNTHESIS.md` has both side by side).
 
 mod choice;
@@ -43,8 +43,8 @@ impl Clock {
         self.device.delays()?.check()
     }
 
-    /// Gives a data path the fewest ranks that reach the clock, where a divider finds `most_quotient_bits` in a cycle at
-    /// the most.
+    /// Gives a data path the fewest ranks that reach the clock, where a divider finds `most_quotient_bits` in a cycle
+    /// at the most.
     ///
     /// # Errors
     /// When no ranks do: says the greatest clock that some reach, and what limits it.

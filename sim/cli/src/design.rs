@@ -114,7 +114,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     write_folded(
         out,
         "real: the greatest error in real numbers. cut: the polynomial ends where x^n is this. too far: more than \
-         allowed. no widths: none are proved to keep what the real error leaves, or no ranks reach the clock. proved: the widths are, and \
+         allowed. no widths: none are proved to keep what the real error leaves, or no ranks reach the clock. proved: \
+         the widths are, and \
          their hardware is no candidate for narrowing.",
     )?;
     writeln!(out)?;
