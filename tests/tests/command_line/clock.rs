@@ -128,18 +128,16 @@ fn what_is_no_clock_is_refused() {
     assert!(run.status == 2 && run.stderr.contains("leave \"pipelining\" out, or the clock"), "{}", run.stderr);
 }
 
-/// The design that is found has the ranks, and its error and witnesses are those of the one without a clock.
+/// The design that is found has the ranks. It may be another than without a clock: a lower degree takes fewer of them.
 #[test]
 fn a_search_keeps_the_clock() {
     let bench = bench!();
     bench.write("delays.json", DELAYS);
     let search = "design --exponents 1..=4 --input UQ1.8 --output UQ1.8 --error 0.03 --finalists 1";
     let _written = bench.good(&format!("{search} --clock-mhz 240 --device delays.json --out fast.json"));
-    let _written = bench.good(&format!("{search} --out plain.json"));
     let read = |name: &str| -> Value { serde_json::from_slice(&std::fs::read(bench.path(name)).unwrap()).unwrap() };
-    let (fast, plain) = (read("fast.json"), read("plain.json"));
+    let fast = read("fast.json");
     assert_eq!(fast["clock"]["mhz"], 240.0);
-    assert_eq!((&fast["method"], &fast["widths"]), (&plain["method"], &plain["widths"]));
     let rows = csv_rows(&bench.good("clock --config fast.json --device delays.json --format csv"));
     assert!(rows.iter().all(|row| number(row, "MHz") >= 240.0), "{rows:?}");
     let run = bench.run(&format!("{search} --clock-mhz 900 --device delays.json"));
