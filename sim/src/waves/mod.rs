@@ -79,6 +79,8 @@ pub struct WaveWriter<'a> {
     registers: Vec<Vec<RankRegister>>,
     input: QFormat,
     output: QFormat,
+    /// Whether the reset is active low.
+    reset_low: bool,
     /// Room for the bits of one signal.
     bits: Vec<u8>,
 }
@@ -107,7 +109,8 @@ impl<'a> WaveWriter<'a> {
         };
         let formats = datapath.formats();
         let (input, output) = (formats.input, formats.output);
-        Ok(Self { sink, wires, registers, input, output, bits: Vec::new() })
+        let reset_low = datapath.control().reset.is_active_low();
+        Ok(Self { sink, wires, registers, input, output, reset_low, bits: Vec::new() })
     }
 
     /// Writes one cycle: the rising edge that began it with all that changed there, and the falling
@@ -155,7 +158,8 @@ impl<'a> WaveWriter<'a> {
         let shown = cycle.ranks.result_loaded();
         let flag = |flag: bool| Some(u128::from(flag));
         let mut words = vec![
-            flag(inputs.reset),
+            // The level of the port.
+            flag(inputs.reset != self.reset_low),
             flag(inputs.in_valid),
             flag(outputs.in_ready),
             Some(inputs.address.into()),

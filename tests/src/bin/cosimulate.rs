@@ -42,7 +42,7 @@ const COVERING: [&str; 3] = ["paper", "compact", "precise"];
 
 /// Every address with every x: 8-bit x, 16 exponents, signed so that all regions occur. And the few vectors of
 /// a compact set, which must meet stalls, bubbles and resets all the same.
-const SMALL: [(&str, Strategy, &str); 15] = [
+const SMALL: [(&str, Strategy, &str); 11] = [
     ("small", Strategy::Exhaustive, include_str!("../../../docs/examples/small.json")),
     ("small_compact", Strategy::Compact, include_str!("../../../docs/examples/small.json")),
     (
@@ -115,31 +115,31 @@ const SMALL: [(&str, Strategy, &str); 15] = [
             "error_budget_ulp": 3, "quotient_bits_per_stage": 8, "pipelining":
             {"rom": true, "operands": true, "sum": true}}"#,
     ),
-    // A register slice at each end, every other handshake, and resets of all kinds.
+];
+
+/// A register slice at each end, every other handshake, and resets of all kinds: every address with every x, and random
+/// cycles.
+const CONTROLLED: [(&str, &str); 4] = [
     (
         "small_sliced",
-        Strategy::Exhaustive,
         r#"{"name": "small_sliced", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
             "output": "UQ1.7", "cut": "minimum", "pipelining":
             {"rom": true, "product": 1, "ready_slice": "output"}, "reset": {"active": "low"}}"#,
     ),
     (
         "small_sliced_input",
-        Strategy::Exhaustive,
         r#"{"name": "small_sliced_input", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
             "output": "UQ1.7", "cut": "minimum", "pipelining": {"ready_slice": "input"},
             "reset": {"kind": "asynchronous", "ready": true}}"#,
     ),
     (
         "small_enable",
-        Strategy::Exhaustive,
         r#"{"name": "small_enable", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
             "output": "UQ1.7", "cut": "minimum", "handshake": "enable",
             "reset": {"kind": "asynchronous", "active": "low"}}"#,
     ),
     (
         "small_free",
-        Strategy::Exhaustive,
         r#"{"name": "small_free", "method": "hermite", "exponents": "1..=16", "input": "Q2.6",
             "output": "UQ1.7", "cut": "minimum", "handshake": "none", "reset": {"ready": true}}"#,
     ),
@@ -286,10 +286,16 @@ fn run(extent: Extent) -> Result<Totals, Failure> {
         let emitted = emit(&design, name, strategy, 0)?;
         everything(&emitted, name, &without_older(&simulators), None)
     });
+    let controlled = CONTROLLED.par_iter().map(|&(name, json)| {
+        let design = design(json)?;
+        let emitted = emit(&design, name, Strategy::Exhaustive, 0)?;
+        in_control(&emitted, name, &without_older(&simulators))
+    });
     let total: Totals = presets
         .chain(scenes)
         .chain(examples)
         .chain(small)
+        .chain(controlled)
         .collect::<Result<Vec<_>, _>>()?
         .into_iter()
         .fold(Totals::default(), |sum, part| sum + part);
@@ -354,6 +360,17 @@ fn everything(
         }
     }
     Ok(totals)
+}
+
+/// What stands around the ranks: vectors with stalls, bubbles and resets, and random cycles with every register.
+fn in_control(emitted: &Emitted<'_>, name: &str, simulators: &[Simulator]) -> Result<Totals, Failure> {
+    simulators::yosys_reads(&emitted.directory)?;
+    readers::check(&emitted.directory).map_err(|error| Failure(format!("{name}: {error}")))?;
+    let each = |simulator: &Simulator| {
+        control(emitted, name, simulator)?;
+        Ok(vectors(emitted, name, simulator)? + registers(emitted, name, simulator, ICARUS_CYCLES)?)
+    };
+    simulators.iter().map(each).try_fold(Totals::default(), |sum, part: Result<Totals, Failure>| Ok(sum + part?))
 }
 
 /// `make icarus`, `control` and `waves`, as they are typed.

@@ -5,6 +5,7 @@ use std::process::Command;
 
 use hw_model::datapath::Datapath;
 use hw_model::datapath::front_end::Variable;
+use hw_model::handshake::ReadySlice;
 use hw_model::registers::Register;
 use hw_model::rom::Place;
 
@@ -48,7 +49,8 @@ fn flat(datapath: &Datapath) -> Vec<Part> {
     ]
 }
 
-/// Flip-flops, bit by bit, as the sources declare them: the registers of every rank and its valid flag.
+/// Flip-flops, bit by bit, as the sources declare them: the registers of every rank and its valid flag, and those of a
+/// register slice.
 fn flip_flops(datapath: &Datapath) -> Part {
     let width = |rank, name, width: u32| {
         // Of the status rank 0 has what it knows: no_word.
@@ -59,7 +61,19 @@ fn flip_flops(datapath: &Datapath) -> Part {
         let registers = datapath.registers(rank).into_iter();
         1 + registers.map(|held| width(rank, held.register, held.format.width())).sum::<u64>()
     });
-    ("flip-flops", "t:$_*DFF*", bits.sum())
+    ("flip-flops", "t:$_*DFF*", bits.sum::<u64>() + u64::from(slice_bits(datapath)))
+}
+
+/// Both entries of a register slice with their flags, and what each rank does in the next cycle where that is known.
+fn slice_bits(datapath: &Datapath) -> u32 {
+    let formats = datapath.formats();
+    match datapath.control().slice {
+        None => 0,
+        Some(ReadySlice::Input) => 2 * (1 + datapath.rom().address_width() + formats.input.width()),
+        Some(ReadySlice::Output) => {
+            2 * (1 + datapath.status_width() + formats.output.width()) + datapath.rank_count() as u32
+        }
+    }
 }
 
 /// A multiplier for each line whose multiplicand is not known: 0 and powers of two take none, nor does one bit
