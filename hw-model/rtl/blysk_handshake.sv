@@ -54,12 +54,12 @@ module blysk_handshake #(
       assign advance_d[rank] = out_ready_d_i || !(&valid_d[RANKS-1:rank]);
     end
     // After a reset all ranks are empty.
-    if (RESET_ASYNCHRONOUS != 0) begin : asynchronous
+    if (RESET_ASYNCHRONOUS != 0) begin : asynchronous_advance
       always_ff @(posedge clk_i or posedge rst_i) begin
         if (rst_i) advance_q <= '1;
         else       advance_q <= advance_d;
       end
-    end else begin : synchronous
+    end else begin : synchronous_advance
       always_ff @(posedge clk_i) begin
         if (rst_i) advance_q <= '1;
         else       advance_q <= advance_d;
