@@ -65,7 +65,7 @@ pub const FAULTS: &[Fault] = &[
     fault!("a rank loads though nothing is offered", "compact", "blysk_handshake.sv",
         "assign load_o  = advance & offered;" => "assign load_o  = advance;", "or the handshake"),
     fault!("a request is loaded in reset", "compact", "blysk_handshake.sv",
-        "in_valid_i && !rst_i}" => "in_valid_i}", "or the handshake"),
+        "in_valid_i && !rst_i}" => "in_valid_i || rst_i}", "or the handshake"),
     fault!("nothing moves in reset", "compact", "blysk_handshake.sv",
         "assign load_o  = advance & offered;" => "assign load_o  = rst_i ? '0 : advance & offered;", " is "),
     fault!("a valid flag out of nothing", "compact", "blysk_handshake.sv",
