@@ -83,6 +83,7 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
 	$(CARGO) test $(CHECKED) --workspace --locked
 	@scripts/synth.py --check --blysk $(TESTED)
+	@scripts/delays.py --check --blysk $(TESTED)
 	@rm -rf $(RESULTS)/frozen
 	@$(FREEZE) --against tests/frozen/DIGESTS
 	$(TARGET)/release-checked/cosimulate --covering

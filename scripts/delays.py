@@ -6,7 +6,8 @@ gets its value; `blysk clock` says what parts lie before it; the delays are thos
 the first. Short paths count less, as the longest one is the clock.
 
     scripts/delays.py                 every configuration of CONFIGURATIONS, and the tables written
-    scripts/delays.py --show          the tables as they are, beside docs/synthesis.csv
+    scripts/delays.py --show          the tables as they are: estimates beside placed clocks, into docs/SYNTHESIS.md
+    scripts/delays.py --check         whether those there are up to date, and within 15 % of the placed ones
 """
 
 import argparse
@@ -31,6 +32,9 @@ CONFIGURATIONS = {
     **{name: ["--preset", name] for name in ["compact", "precise", "paper", "schlick", "blooming"]},
     **{name: ["--config", f"docs/examples/{name}.json"] for name in EXAMPLES},
 }
+MARKERS = "<!-- estimates: made by `scripts/delays.py --show` -->", "<!-- end of estimates -->"
+# An estimate that is farther off is none.
+MOST = 0.15
 # How many paths the clock of a configuration counts for.
 CLOCK = 10.0
 # The last part of a path in `blysk clock`, and the registers in which it ends, as Yosys calls them.
@@ -131,29 +135,54 @@ def placed(blysk, name, option, device):
     return json.loads((synth.WORK / name / device.replace(" ", "_") / "report.json").read_text())
 
 
-def show(blysk):
-    """Prints the estimated clock of each row of docs/synthesis.csv beside the placed one."""
-    rows = [row for row in csv.DictReader(io.StringIO(synth.COMMITTED.read_text())) if row["f_max_mhz"]]
-    worst = 0.0
-    for row in rows:
-        option = synth.configurations(blysk)[row["configuration"]]
-        table = json.loads(TABLES[row["device"]].read_text())
-        estimate = 1e3 / max(ns for _, ns in paths(blysk, option, table))
-        off = estimate / float(row["f_max_mhz"]) - 1
-        worst = max(worst, abs(off))
-        print(f"{row['configuration']:22}{row['device']:12}{row['f_max_mhz']:>7}{estimate:8.1f}{off:+8.1%}")
-    return worst
+def estimates(blysk):
+    """Each placed row of docs/synthesis.csv with the estimated clock, and how far it is off."""
+    options = synth.configurations(blysk)
+    found = []
+    for row in csv.DictReader(io.StringIO(synth.COMMITTED.read_text())):
+        if row["f_max_mhz"]:
+            table = json.loads(TABLES[row["device"]].read_text())
+            estimate = 1e3 / max(ns for _, ns in paths(blysk, options[row["configuration"]], table))
+            off = estimate / float(row["f_max_mhz"]) - 1
+            found.append((row["configuration"], row["device"], row["f_max_mhz"], estimate, off))
+    return found
+
+
+def document(rows):
+    """docs/SYNTHESIS.md with the table of these estimates."""
+    lines = ["| configuration | device | median of three, MHz | estimated, MHz | off |", "|---|---|---:|---:|---:|"]
+    lines += [f"| `{name}` | {device} | {placed} | {estimate:.1f} | {off:+.1%} |"
+              for name, device, placed, estimate, off in rows]
+    text = synth.DOCUMENT.read_text()
+    before, rest = text.split(MARKERS[0])
+    table = "\n".join(lines)
+    return f"{before}{MARKERS[0]}\n{table}\n{MARKERS[1]}{rest.split(MARKERS[1])[1]}"
+
+
+def show(blysk, check):
+    """Writes the table, or tells whether it is as it would be written; 1 where an estimate is too far off."""
+    rows = estimates(blysk)
+    text = document(rows)
+    if check and text != synth.DOCUMENT.read_text():
+        sys.exit("docs/SYNTHESIS.md has other estimates; run scripts/delays.py --show")
+    synth.DOCUMENT.write_text(text)
+    far = [row for row in rows if abs(row[-1]) > MOST]
+    for name, device, placed, estimate, off in far:
+        print(f"{name} on {device}: {estimate:.1f} MHz estimated, {placed} placed, {off:+.1%}")
+    print(f"{len(rows)} estimates, the farthest {max(abs(row[-1]) for row in rows):.1%} off")
+    return 1 if far else 0
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
-    parser.add_argument("--show", action="store_true", help="only print estimates beside docs/synthesis.csv")
+    parser.add_argument("--show", action="store_true", help="only write the estimates into docs/SYNTHESIS.md")
+    parser.add_argument("--check", action="store_true", help="only tell whether those there are up to date")
     parser.add_argument("--reuse", action="store_true", help="take the reports of the last run where they are")
     args = parser.parse_args()
     os.environ["PATH"] = f"{synth.VENV}:{os.environ['PATH']}"
-    if args.show:
-        sys.exit(0 if show(args.blysk) <= 0.15 else 1)
+    if args.show or args.check:
+        sys.exit(show(args.blysk, args.check))
     synth.SEEDS = synth.SEEDS[:1]
     synth.COMMON = synth.COMMON.replace("--quiet", "--detailed-timing-report --quiet")
     for device, file in TABLES.items():

@@ -1,4 +1,4 @@
-// The valid flags, and when each rank of registers loads. Twin of the rules in sim/src/pipeline.rs.
+// The valid flags, and when each rank of registers loads. Twin of the rules in sim/src/pipeline/.
 //
 //   1. A transfer takes place at a rising edge where valid and ready are both high and reset is low.
 //   2. A rank advances when it is empty or the rank after it advances; the last one when it is empty

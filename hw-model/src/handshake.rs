@@ -53,6 +53,17 @@ pub enum ReadySlice {
     Output,
 }
 
+impl ReadySlice {
+    /// The name in configurations.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Input => "input",
+            Self::Output => "output",
+        }
+    }
+}
+
 /// How a reset comes, and what it does to `in_ready_o`. It clears valid flags, and no data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -132,6 +143,23 @@ impl Control {
                     .to_owned())
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Whether a result that the ports show leaves at the edge.
+    #[must_use]
+    pub const fn takes(&self, out_ready: bool) -> bool {
+        out_ready || matches!(self.handshake, Handshake::None)
+    }
+
+    /// What decides `in_ready_o` outside of a reset, for messages.
+    #[must_use]
+    pub const fn ready_rule(&self) -> &'static str {
+        match (self.slice, self.handshake) {
+            (Some(ReadySlice::Input), _) => "the slice takes one more until its spare entry is full",
+            (_, Handshake::ValidReady) => "a rank advances when it is empty or the next one advances",
+            (_, Handshake::Enable) => "every rank advances where out_ready_i is high",
+            (_, Handshake::None) => "every rank advances in every cycle",
         }
     }
 

@@ -88,8 +88,9 @@ pub fn compare(datapath: &Datapath, log: impl BufRead) -> Result<Agreement, Disa
         agreement.resets += u64::from(inputs.reset);
         agreement.bubbles += u64::from(outputs.in_ready && !inputs.in_valid);
         if outputs.out_valid && !inputs.reset {
-            agreement.results += u64::from(inputs.out_ready);
-            agreement.stalls += u64::from(!inputs.out_ready);
+            let taken = datapath.control().takes(inputs.out_ready);
+            agreement.results += u64::from(taken);
+            agreement.stalls += u64::from(!taken);
         }
         was_reset |= inputs.reset;
         pipeline.clock();

@@ -84,10 +84,11 @@ impl Counts {
 
     /// `under_way` is the number of requests in the pipeline before the cycle.
     fn count(&mut self, cycle: &Cycle<'_>, under_way: u32) {
-        let Cycle { inputs, outputs, .. } = cycle;
+        let Cycle { inputs, outputs, ranks, .. } = cycle;
         self.cycles += 1;
         let taken = inputs.in_valid && outputs.in_ready && !inputs.reset;
-        let delivered = outputs.out_valid && inputs.out_ready && !inputs.reset;
+        let due = outputs.out_valid && !inputs.reset;
+        let taken_from_it = due && ranks.control().takes(inputs.out_ready);
         if taken {
             self.requests += 1;
             self.bubbles += std::mem::take(&mut self.trailing_bubbles);
@@ -96,8 +97,8 @@ impl Counts {
         } else if outputs.in_ready && self.first_request.is_some() {
             self.trailing_bubbles += 1;
         }
-        self.results += u64::from(delivered);
-        self.stalls += u64::from(outputs.out_valid && !inputs.out_ready && !inputs.reset);
+        self.results += u64::from(taken_from_it);
+        self.stalls += u64::from(due && !taken_from_it);
         if inputs.reset {
             self.lost_to_reset += u64::from(under_way);
         }
@@ -177,12 +178,12 @@ pub struct Results {
 impl Results {
     /// The result that was taken in this cycle. Every cycle of a run is to be shown, in order.
     pub fn cycle(&mut self, cycle: &Cycle<'_>) -> Option<Taken> {
-        let Cycle { index, inputs, outputs, .. } = cycle;
+        let Cycle { index, inputs, outputs, ranks } = cycle;
         if inputs.reset {
             self.under_way.clear();
             return None;
         }
-        let taken = outputs.out_valid && inputs.out_ready;
+        let taken = outputs.out_valid && ranks.control().takes(inputs.out_ready);
         let request = if taken { self.under_way.pop_front() } else { None };
         if inputs.in_valid && outputs.in_ready {
             self.under_way.push_back((inputs.address, inputs.x));

@@ -1,6 +1,9 @@
 //! A register slice of two entries: what comes in waits until it is taken, and ready is a register.
 //! Twin of `blysk_ready_slice.sv`.
 
+use hw_model::datapath::Status;
+use hw_model::handshake::{Control, ReadySlice};
+
 /// The registers of a slice of values `T`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Slice<T> {
@@ -40,5 +43,33 @@ impl<T: Copy> Slice<T> {
     #[must_use]
     pub const fn in_flight(&self) -> u32 {
         self.head_valid as u32 + self.spare_valid as u32
+    }
+}
+
+/// The register slices that a configuration has: at most one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Slices {
+    /// Address and x, before the first rank.
+    pub input: Option<Slice<(u32, i64)>>,
+    /// Intensity and status, behind the last rank.
+    pub output: Option<Slice<(i64, Status)>>,
+}
+
+impl Slices {
+    pub(crate) fn of(control: &Control) -> Self {
+        Self {
+            input: (control.slice == Some(ReadySlice::Input)).then(Slice::default),
+            output: (control.slice == Some(ReadySlice::Output)).then(Slice::default),
+        }
+    }
+
+    pub(crate) fn cleared(&self) -> Self {
+        Self { input: self.input.map(|slice| slice.cleared()), output: self.output.map(|slice| slice.cleared()) }
+    }
+
+    /// The number of requests and results that wait in them.
+    #[must_use]
+    pub fn in_flight(&self) -> u32 {
+        self.input.map_or(0, |slice| slice.in_flight()) + self.output.map_or(0, |slice| slice.in_flight())
     }
 }

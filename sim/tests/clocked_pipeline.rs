@@ -5,11 +5,11 @@ use std::convert::Infallible;
 use hw_model::config::Config;
 use hw_model::datapath::{Datapath, Status};
 use hw_model::design::Design;
-use hw_model::handshake::ReadySlice;
+use hw_model::handshake::{Handshake, ReadySlice};
 use hw_model::presets;
 use proptest::prelude::*;
 use sim::pipeline::{Inputs, Outputs, Pipeline};
-use sim::run::{StimulusCycle, run};
+use sim::run::{Results, StimulusCycle, run};
 
 fn design(preset: &str) -> Design {
     Design::new(presets::find(preset).unwrap().config().unwrap()).unwrap()
@@ -151,6 +151,36 @@ fn bubbles_collapse_behind_a_stall() {
     assert!(pipeline.ranks().iter().all(|rank| rank.valid));
     let full = Inputs { in_valid: true, out_ready: true, ..Inputs::default() };
     assert!(pipeline.tick(&full).in_ready, "a full pipeline takes one as it delivers one");
+}
+
+/// Where nothing waits, ready is not looked at: each result belongs to its own request all the same.
+#[test]
+fn results_find_their_requests_though_nobody_is_ready() {
+    for handshake in Handshake::ALL {
+        let mut config = small().config().clone();
+        config.handshake = handshake;
+        let design = Design::new(config).unwrap();
+        let row = |index: i64| StimulusCycle {
+            request: Some((index as u32 % 8, 3 * index)),
+            ready: index % 3 != 0,
+            reset: index == 0,
+        };
+        let mut results = Results::default();
+        let mut found = 0;
+        let counts =
+            run(&mut Pipeline::new(design.datapath()), (0..40).map(|index| Ok::<_, Infallible>(row(index))), |cycle| {
+                if let Some(taken) = results.cycle(cycle) {
+                    let (address, x) = taken.request;
+                    let wanted = design.datapath().evaluate(address, x);
+                    assert_eq!((taken.intensity, taken.status), (wanted.intensity, wanted.status), "{handshake:?}");
+                    found += 1;
+                }
+                Ok(())
+            });
+        let Ok(counts) = counts;
+        assert_eq!((counts.requests, counts.results, found), (40, 40, 40), "{handshake:?}");
+        assert_eq!(counts.stalls > 0, handshake != Handshake::None);
+    }
 }
 
 /// A slice adds a cycle, and room for two more.

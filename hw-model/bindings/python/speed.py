@@ -1,6 +1,6 @@
 """How fast the wheel answers, beside the Rust engine and the RTL in Verilator in the same run.
 
-    python speed.py [PRESET …]            in the clone: a table in Markdown, that of docs/VERIFICATION.md
+    python speed.py [PRESET …]            in the clone: a table in Markdown
     python speed.py --memory              what 10⁸ samples hold
 
 Builds `hw-model/bindings/model/examples/speed.rs` and `tests/src/bin/verilated.rs` with cargo's profile release, which

@@ -28,7 +28,8 @@ pub enum ClockError {
     /// No ranks reach the clock.
     #[error(
         "{wanted} MHz cannot be reached on {device}: ask for {} or less. What limits is {}, with {:.1} ns",
-        greatest.mhz().floor(), greatest.words(), greatest.ns
+        // Rounded down, so that it can be asked for.
+        (greatest.mhz() * 10.0).floor() / 10.0, greatest.words(), greatest.ns
     )]
     Unreached {
         /// The clock that was asked for, in MHz.

@@ -79,21 +79,15 @@ impl Crosses {
     pub(super) fn see(&mut self, cycle: &Cycle<'_>) {
         let valid = cycle.ranks.valid();
         let held = |rank: usize| valid >> rank & 1 == 1;
-        let count = cycle.ranks.iter().count();
-        // A rank moves when it is empty or the one behind it in the data path does.
-        let mut moves = vec![true; count];
-        let mut next = cycle.inputs.out_ready;
-        for rank in (0..count).rev() {
-            next = next || !held(rank);
-            moves[rank] = next;
-        }
+        let advance = cycle.ranks.advance(cycle.inputs.out_ready);
+        let moves = |rank: usize| advance >> rank & 1 == 1;
         for &rank in &self.ranks {
             if !held(rank) {
                 continue;
             }
             let region = cycle.ranks.rank(rank).signals.region as u8;
             let seen = self.seen.entry((region, rank)).or_default();
-            seen.stalled |= !moves[rank];
+            seen.stalled |= !moves(rank);
             seen.before_bubble |= !held(rank - 1);
             seen.before_request |= held(rank - 1);
         }
@@ -106,7 +100,7 @@ impl Crosses {
                 }
             }
             // What it holds in the next cycle is another request, or none.
-            self.moved = moves[first];
+            self.moved = moves(first);
         }
     }
 

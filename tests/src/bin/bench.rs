@@ -10,7 +10,7 @@ use std::time::Instant;
 use analysis::error_report::{Options, error_report};
 use blysk_tests::bench::verilator::{self, Verilated};
 use blysk_tests::bench::{Pattern, Rates, Timed, engines, files, significant};
-use blysk_tests::rtl::{Failure, failed};
+use blysk_tests::rtl::{Failure, ended, failed};
 use hw_model::datapath::Block;
 use hw_model::design::Design;
 use hw_model::presets;
@@ -49,13 +49,7 @@ impl Table {
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(run())
 }
 
 fn run() -> Result<(), Failure> {

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use blysk_tests::bench::Pattern;
 use blysk_tests::bench::verilator::Verilated;
-use blysk_tests::rtl::{Failure, failed};
+use blysk_tests::rtl::{Failure, ended, failed};
 use hw_model::design::Design;
 
 const CYCLES: u64 = 2_000_000;
@@ -32,11 +32,5 @@ fn run() -> Result<(), Failure> {
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::FAILURE
-        }
-    }
+    ended(run())
 }

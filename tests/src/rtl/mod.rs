@@ -19,6 +19,7 @@ pub mod workspace;
 pub mod wrappers;
 
 use std::fmt;
+use std::process::ExitCode;
 
 /// A run that did not do what it must, in words.
 #[derive(Debug)]
@@ -31,6 +32,17 @@ impl fmt::Display for Failure {
 }
 
 impl std::error::Error for Failure {}
+
+/// The exit status of a program that ended so; a failure is printed.
+pub fn ended(result: Result<(), Failure>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
 
 /// A failure with this text.
 pub fn failed<T>(text: impl Into<String>) -> Result<T, Failure> {

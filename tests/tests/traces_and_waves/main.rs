@@ -1,7 +1,7 @@
 //! `blysk simulate` from outside: the trace and the waves of runs full of stalls, bubbles and resets.
 //!
 //! The trace is checked against a model of the pipeline that is written down here once more, as short
-//! as the rules in `sim/src/pipeline.rs`; the waves against the trace; the printed counts against what
+//! as the rules in `sim/src/pipeline/mod.rs`; the waves against the trace; the printed counts against what
 //! can be counted in the trace.
 
 mod counts;

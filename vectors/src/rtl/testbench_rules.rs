@@ -48,12 +48,7 @@ impl Rules {
             taken: if output { "!spare_held" } else { "out_ready" },
             refuses: if input { "spare_held" } else { "!advance[0]" },
             ready: format!("{takes}{}", if control.reset.ready { "" } else { " && !rst" }),
-            rule: match control.handshake {
-                _ if input => "the slice takes one more until its spare entry is full",
-                Handshake::ValidReady => "a rank advances when it is empty or the next one advances",
-                Handshake::Enable => "every rank advances where out_ready_i is high",
-                Handshake::None => "every rank advances in every cycle",
-            },
+            rule: control.ready_rule(),
             shown: if output { "head_held" } else { "held[RANKS-1]" },
             shown_vector: if output { "head_of" } else { "vector_of[RANKS-1]" },
             shown_loads: if output { "1'b1" } else { "loads[RANKS-1]" },

@@ -6,6 +6,7 @@
 use std::collections::VecDeque;
 use std::fmt;
 
+use hw_model::handshake::ReadySlice;
 use sim::pipeline::{Inputs, Outputs, Rank};
 
 use crate::clocked::Clocked;
@@ -162,7 +163,7 @@ impl Scoreboard {
         registers: Option<&[Option<u64>]>,
     ) -> Result<(), Departure> {
         inputs_known(seen, inputs)?;
-        let why_ready = "a rank advances when it is empty or the next one advances";
+        let why_ready = self.clocked.model().datapath().control().ready_rule();
         Departure::check_level("in_ready_o", seen.in_ready, outputs.in_ready, why_ready)?;
         if seen.out_valid != Some(outputs.out_valid) {
             let latency = self.clocked.model().latency();
@@ -177,12 +178,19 @@ impl Scoreboard {
 
     fn registers(&mut self, words: &[Option<u64>]) -> Result<(), Departure> {
         let ranks = self.clocked.ranks();
+        let control = self.clocked.model().datapath().control();
+        let in_ranks = ranks.iter().filter(|rank| rank.valid).count();
+        // The oldest requests have results in a slice behind the ranks already.
+        let behind = match control.slice {
+            Some(ReadySlice::Output) => self.requests.len().saturating_sub(in_ranks),
+            Some(ReadySlice::Input) | None => 0,
+        };
         let probes = self.clocked.model().probes();
         for (probe, &got) in probes.iter().zip(words).filter(|(probe, _)| ranks[probe.rank].loaded) {
             let wanted = probe.register.format.to_word(probe.register.bits(&ranks[probe.rank].signals));
             check_word(probe, got, wanted).map_err(|what| Departure {
                 what,
-                request: request_in(&self.requests, &ranks, probe.rank),
+                request: request_in(&self.requests, &ranks, probe.rank, behind),
                 registers_seen: true,
             })?;
             self.counts.compared += 1;
@@ -214,10 +222,10 @@ impl Scoreboard {
     fn count(&mut self, inputs: &Inputs, outputs: &Outputs) {
         let counts = &mut self.counts;
         let due = outputs.out_valid && !inputs.reset;
-        let taken = due && inputs.out_ready;
+        let taken = due && self.clocked.model().datapath().control().takes(inputs.out_ready);
         counts.cycles += 1;
         counts.results += u64::from(taken);
-        counts.stalls += u64::from(due && !inputs.out_ready);
+        counts.stalls += u64::from(due && !taken);
         counts.bubbles += u64::from(outputs.in_ready && !inputs.in_valid);
         counts.resets += u64::from(inputs.reset && !self.in_reset && self.was_reset);
         if taken {
@@ -234,9 +242,9 @@ impl Scoreboard {
     }
 }
 
-/// The request that a rank holds, where it holds one.
-fn request_in(requests: &VecDeque<Request>, ranks: &[Rank], rank: usize) -> Option<Request> {
-    let before = ranks.iter().skip(rank + 1).filter(|rank| rank.valid).count();
+/// The request that a rank holds, where it holds one; so many requests have left the ranks and not the pipeline.
+fn request_in(requests: &VecDeque<Request>, ranks: &[Rank], rank: usize, behind: usize) -> Option<Request> {
+    let before = behind + ranks.iter().skip(rank + 1).filter(|rank| rank.valid).count();
     if ranks[rank].valid { requests.get(before).copied() } else { None }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
+use hw_model::handshake::ReadySlice;
 use model::Model as Golden;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyTypeError;
@@ -192,6 +193,24 @@ impl Model {
     #[getter]
     fn latency(&self) -> usize {
         self.golden.latency()
+    }
+
+    /// The rule by which ranks advance: `valid_ready`, `enable` or `none`.
+    #[getter]
+    fn handshake(&self) -> &'static str {
+        self.golden.datapath().control().handshake.name()
+    }
+
+    /// The end at which a register slice stands, `input` or `output`; None where there is none.
+    #[getter]
+    fn ready_slice(&self) -> Option<&'static str> {
+        self.golden.datapath().control().slice.map(ReadySlice::name)
+    }
+
+    /// Whether the port of the reset, which is then `rst_ni`, resets at 0.
+    #[getter]
+    fn reset_active_low(&self) -> bool {
+        self.golden.datapath().control().reset.is_active_low()
     }
 
     /// The exponents, in the order of their addresses.

@@ -77,6 +77,9 @@ class Lockstep:
     def _standing(self, valid: list[bool], rank: int) -> Request | None:
         """The request in a rank: they do not overtake each other, so the ranks behind it hold the older ones."""
         older = sum(valid[rank + 1 :])
+        if self._scoreboard.model.ready_slice == "output":
+            # The oldest have results in the slice behind the ranks already.
+            older += max(0, len(self._under_way) - sum(valid))
         return self._under_way[older] if valid[rank] and older < len(self._under_way) else None
 
     def _said(

@@ -76,10 +76,19 @@ class Ports:
         if missing:
             raise ValueError(f"the design has no port {', '.join(missing)}; say in `ports` what it is called")
         self._found = found
+        self._reset = next(port for port in names if port.startswith("rst"))
+        self._active = 0 if model.reset_active_low else 1
 
     def __getitem__(self, port: str) -> Any:
         return self._found[port]
 
+    def reset(self, on: bool) -> None:
+        """Drives the reset, by the level that it has."""
+        self._found[self._reset].value = self._active if on else 1 - self._active
+
     def sample(self, cycle: int) -> Sample:
-        """Every port but the clock."""
-        return Sample(cycle, *(word(handle) for port, handle in self._found.items() if port != "clk_i"))
+        """Every port but the clock; of the reset whether there is one."""
+        levels = {port: word(handle) for port, handle in self._found.items() if port != "clk_i"}
+        if levels[self._reset] is not None:
+            levels[self._reset] = int(levels[self._reset] == self._active)
+        return Sample(cycle, *levels.values())

@@ -1,194 +1,14 @@
-//! Registers, clock and handshake around the model's data path. Nothing is computed here.
-//!
-//! A cycle has two phases. *Combinational*: from the registers (`_q`) and the inputs follow the
-//! outputs and what every register will take in (`_d`). *Clock*: `_d` becomes `_q`.
-//!
-//! Handshake rules:
-//!
-//! 1. A transfer takes place at a rising edge where valid and ready are both high and reset is low.
-//! 2. A rank advances when it is empty or the rank after it advances; the last one when it is empty or
-//!    `out_ready` is high. So bubbles collapse, and a stall holds every bit.
-//! 3. `out_valid` depends on registers only, never on `out_ready` or `in_valid`.
-//! 4. Reset clears the valid flags; `in_ready` is low while it is high. What was in flight is lost.
-//! 5. A rank's data registers are loaded when it advances and a request is offered to it; a bubble does
-//!    not change them. Reset does not gate that in ranks from 1 up; only their flags become 0.
-//!
-//! A configuration may have another rule than 2 ([`Handshake`]), another reset than that at the edge ([`Reset`]), and a
-//! register slice at one end ([`Slice`]).
-//!
-//! [`Reset`]: hw_model::handshake::Reset
+//! The clock: one cycle after another.
 
 use std::ops::Deref;
 
-use hw_model::datapath::{Datapath, Flight, Logic, Requests, Signals, Status};
-use hw_model::handshake::{Control, Handshake, ReadySlice};
+use hw_model::datapath::{Datapath, Flight, Logic, Requests, Status};
+use hw_model::handshake::Control;
 
-use crate::slice::Slice;
-
-/// What drives the pipeline during one cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Inputs {
-    /// Clears every valid flag, at the edge or at once; whatever the level of the port is that says so.
-    pub reset: bool,
-    /// Address and x are a request.
-    pub in_valid: bool,
-    /// The request's ROM address.
-    pub address: u32,
-    /// x, bits in the input format.
-    pub x: i64,
-    /// The receiver of the results can take one.
-    pub out_ready: bool,
-}
-
-/// What the pipeline shows at the edge that ends the cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Outputs {
-    /// The request is taken if it is valid.
-    pub in_ready: bool,
-    /// Intensity and status are a result.
-    pub out_valid: bool,
-    /// Bits in the output format.
-    pub intensity: i64,
-    /// Flags of the result.
-    pub status: Status,
-}
-
-/// One rank of registers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Rank {
-    /// True when the rank holds a request.
-    pub valid: bool,
-    /// False until data is loaded for the first time: hardware shows unknown values there.
-    pub loaded: bool,
-    /// What the data registers of the rank hold.
-    pub signals: Signals,
-}
-
-/// The registers of every rank, first rank first. They are put together when they are asked for.
-#[derive(Debug, Clone, Copy)]
-pub struct Ranks<'a> {
-    datapath: &'a Datapath,
-    ranks: usize,
-    places: Places,
-    flights: &'a [Flight],
-    remains: &'a Remains,
-    slices: &'a Slices,
-}
-
-impl<'a> Ranks<'a> {
-    /// One rank.
-    ///
-    /// # Panics
-    /// When there is no such rank.
-    #[must_use]
-    pub fn rank(&self, rank: usize) -> Rank {
-        assert!(rank < self.ranks);
-        let flight = match self.places.shown(rank) {
-            Some(number) => Some(&self.flights[number as usize & (self.flights.len() - 1)]),
-            None => self.remains.shown(rank),
-        };
-        Rank {
-            valid: self.places.valid >> rank & 1 == 1,
-            loaded: flight.is_some(),
-            signals: flight.map(|flight| self.datapath.shown(rank, flight)).unwrap_or_default(),
-        }
-    }
-
-    /// Every rank, the first one first.
-    pub fn iter(self) -> impl Iterator<Item = Rank> + use<'a> {
-        (0..self.ranks).map(move |rank| self.rank(rank))
-    }
-
-    /// The last, which shows the result.
-    #[must_use]
-    pub fn last(&self) -> Rank {
-        self.rank(self.ranks - 1)
-    }
-
-    /// The valid flags, the first rank's in bit 0.
-    #[must_use]
-    pub const fn valid(&self) -> u128 {
-        self.places.valid
-    }
-
-    /// The register slices around the ranks.
-    #[must_use]
-    pub const fn slices(&self) -> &Slices {
-        self.slices
-    }
-
-    /// True once the ports of the result have shown one: before, hardware shows unknown values there.
-    #[must_use]
-    pub fn result_loaded(&self) -> bool {
-        self.slices.output.map_or_else(|| self.last().loaded, |slice| slice.head.is_some())
-    }
-}
-
-/// Where the requests are. They are numbered as they enter.
-///
-/// Requests do not overtake each other, so the valid flags and the number of those that have left say which request
-/// stands where: behind a rank are those that left and one for each valid flag from it on. The last of these is what
-/// the rank shows, whether it still holds it or has passed it on.
-#[derive(Debug, Clone, Copy)]
-struct Places {
-    /// A flag of every rank is a bit.
-    valid: u128,
-    /// Requests that left, counting those that a reset lost.
-    left: u64,
-    /// The same when the last reset ended.
-    before: u64,
-}
-
-impl Places {
-    /// The number of the request that a rank shows; none before it has loaded one since the last reset.
-    #[inline]
-    fn shown(&self, rank: usize) -> Option<u64> {
-        let passed = self.left + u64::from((self.valid >> rank).count_ones());
-        (passed > self.before).then(|| passed - 1)
-    }
-}
-
-/// What ranks showed at the last reset, which clears flags but no data.
-#[derive(Debug, Clone)]
-struct Remains {
-    /// Ranks that had loaded a request: a bit each.
-    loaded: u128,
-    flights: Vec<Flight>,
-}
-
-impl Remains {
-    fn shown(&self, rank: usize) -> Option<&Flight> {
-        (self.loaded >> rank & 1 == 1).then(|| &self.flights[rank])
-    }
-}
-
-/// The register slices that a configuration has: at most one of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Slices {
-    /// Address and x, before the first rank.
-    pub input: Option<Slice<(u32, i64)>>,
-    /// Intensity and status, behind the last rank.
-    pub output: Option<Slice<(i64, Status)>>,
-}
-
-impl Slices {
-    fn of(control: &Control) -> Self {
-        Self {
-            input: (control.slice == Some(ReadySlice::Input)).then(Slice::default),
-            output: (control.slice == Some(ReadySlice::Output)).then(Slice::default),
-        }
-    }
-
-    fn cleared(&self) -> Self {
-        Self { input: self.input.map(|slice| slice.cleared()), output: self.output.map(|slice| slice.cleared()) }
-    }
-
-    /// The number of requests and results that wait in them.
-    #[must_use]
-    pub fn in_flight(&self) -> u32 {
-        self.input.map_or(0, |slice| slice.in_flight()) + self.output.map_or(0, |slice| slice.in_flight())
-    }
-}
+use super::places::{Places, Remains};
+use super::ports::{Inputs, Outputs};
+use super::ranks::{Ranks, advance};
+use crate::slice::Slices;
 
 /// What the rising edge brings.
 #[derive(Debug, Clone, Copy, Default)]
@@ -345,7 +165,7 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
     /// The ranks between the slices, where there are any. Reset and what is presented are told to both.
     #[inline(never)]
     fn cycle_in_control(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
-        let Control { handshake, reset, .. } = self.control;
+        let reset = self.control.reset;
         if inputs.reset && reset.is_asynchronous() {
             self.clear();
         }
@@ -358,15 +178,11 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         if let Some(slice) = output {
             of_ranks.out_ready = !slice.spare_valid;
         }
-        let (ranks, edge) = match handshake {
-            Handshake::ValidReady => self.cycle_of_ranks(&of_ranks),
-            Handshake::Enable => self.cycle_together(&of_ranks, of_ranks.out_ready),
-            Handshake::None => self.cycle_together(&of_ranks, true),
-        };
-        let mut outputs = ranks;
+        let (ranks, edge) = self.cycle_of_ranks(&of_ranks);
         // The ranks' own ready, which a reset does not hide from the slice before them.
-        let advances = self.advances(&of_ranks);
-        outputs.in_ready = (!inputs.reset || reset.ready) && input.map_or(advances, |slice| !slice.spare_valid);
+        let advances = self.advance(of_ranks.out_ready) & 1 == 1;
+        let room = input.map_or(advances, |slice| !slice.spare_valid);
+        let mut outputs = Outputs { in_ready: room && (reset.ready || !inputs.reset), ..ranks };
         if let Some(slice) = input {
             let offered = (inputs.in_valid && !inputs.reset).then_some((inputs.address, inputs.x));
             self.slices_d.input = Some(slice.next(offered, advances));
@@ -380,36 +196,12 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
         (outputs, edge)
     }
 
-    /// Whether the first rank advances.
-    fn advances(&self, inputs: &Inputs) -> bool {
-        match self.control.handshake {
-            Handshake::ValidReady => inputs.out_ready || self.places_q.valid != self.all,
-            Handshake::Enable => inputs.out_ready,
-            Handshake::None => true,
-        }
+    #[inline(always)]
+    fn advance(&self, ready: bool) -> u128 {
+        advance(self.control.handshake, self.places_q.valid, self.all, ready)
     }
 
-    /// Every rank advances, or none does.
-    fn cycle_together(&mut self, inputs: &Inputs, enable: bool) -> (Outputs, Edge) {
-        let Inputs { reset, address, x, .. } = *inputs;
-        let valid = self.places_q.valid;
-        let request = inputs.in_valid && !reset;
-        let offered = (valid << 1 | u128::from(request)) & self.all;
-        let out_valid = valid & self.last != 0;
-        let (intensity, status) = if out_valid { self.next_result() } else { self.last_result() };
-        let edge = Edge {
-            valid: if enable { offered } else { valid },
-            reset,
-            takes: request && enable,
-            leaves: out_valid && enable,
-            address,
-            x,
-        };
-        (Outputs { in_ready: enable && !reset, out_valid, intensity, status }, edge)
-    }
-
-    /// The combinational phase of the ranks alone. Rule 2, written out: a rank advances when the output is taken or any
-    /// rank from it on is empty, that is, when it is not above the last empty one.
+    /// The combinational phase of the ranks alone.
     #[inline(always)]
     fn cycle_of_ranks(&mut self, inputs: &Inputs) -> (Outputs, Edge) {
         let Inputs { reset, address, x, .. } = *inputs;
@@ -420,21 +212,21 @@ impl<D: Deref<Target = Datapath>> Clocked<D> {
             let edge = Edge { valid, reset, takes: true, leaves: true, address, x };
             return (Outputs { in_ready: true, out_valid: true, intensity, status }, edge);
         }
+        let advance = self.advance(inputs.out_ready);
         let request = inputs.in_valid && !reset;
         let offered = (valid << 1 | u128::from(request)) & self.all;
-        let (valid_d, advances) = if inputs.out_ready {
-            (offered, true)
-        } else {
-            let empty = self.all & !valid;
-            let advance = u128::MAX.checked_shr(empty.leading_zeros()).unwrap_or(0);
-            (advance & offered | valid & !advance, empty != 0)
-        };
         let out_valid = valid & self.last != 0;
         let (intensity, status) = if out_valid { self.next_result() } else { self.last_result() };
-        let in_ready = advances && !reset;
-        let (takes, leaves) = (request && advances, out_valid && inputs.out_ready);
-        let edge = Edge { valid: valid_d, reset, takes, leaves, address, x };
-        (Outputs { in_ready, out_valid, intensity, status }, edge)
+        let first = advance & 1 == 1;
+        let edge = Edge {
+            valid: advance & offered | valid & !advance,
+            reset,
+            takes: request && first,
+            leaves: out_valid && advance & self.last != 0,
+            address,
+            x,
+        };
+        (Outputs { in_ready: first && !reset, out_valid, intensity, status }, edge)
     }
 
     #[inline(always)]
