@@ -6,7 +6,8 @@
 //   m_axis_tuser   the status, bit for bit
 //
 // There is no tlast: every transfer is a request of its own, and the results come in the order of the requests. While
-// aresetn is low no request is taken, and what is under way is lost. Whether it waits for the clock, the configuration says.
+// aresetn is low no request is taken, and what is under way is lost. Whether it waits for the clock, the configuration
+// says.
 `timescale 1ns / 1ps
 `default_nettype none
 
