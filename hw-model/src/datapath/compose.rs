@@ -169,11 +169,9 @@ impl Lines {
     /// are those of a cubic of at most two segments.
     pub(super) fn plainly_rounded(&self) -> Option<(Rounding, bool)> {
         let mode = self.rounding().filter(|_| self.are_cubics())?;
-        let plain = |centred: &bool| {
-            let alike = |stage: &MultiplyAdd| stage.is_plain() && stage.subtracts() == *centred;
-            self.front_end.is_plain(*centred) && self.stages.lines().iter().all(alike)
-        };
-        [true, false].into_iter().find(plain).map(|centred| (mode, centred))
+        let centred = self.front_end.is_centred();
+        let alike = |stage: &MultiplyAdd| stage.is_plain() && stage.subtracts() == centred;
+        (self.front_end.is_plain() && self.stages.lines().iter().all(alike)).then_some((mode, centred))
     }
 
     /// The front end: which part answers, in which segment, and the variable of the polynomial.

@@ -115,14 +115,16 @@ impl FrontEnd {
         Self { variable, ..self }
     }
 
-    /// True where the variable is u with bits dropped, or for the power form x.
+    /// True unless the polynomial's variable is x: the power form.
     #[must_use]
-    pub const fn is_plain(&self, centred: bool) -> bool {
-        match self.variable {
-            Some(Variable::U { drop, .. }) => centred && drop > 0,
-            Some(Variable::X) => !centred,
-            None => true,
-        }
+    pub const fn is_centred(&self) -> bool {
+        !matches!(self.variable, Some(Variable::X))
+    }
+
+    /// True unless the variable is u with no bits dropped.
+    #[must_use]
+    pub const fn is_plain(&self) -> bool {
+        !matches!(self.variable, Some(Variable::U { drop: 0, .. }))
     }
 
     /// The same plain front end, u rounded by `mode`, with all that the compiler may know of it: it leaves no
