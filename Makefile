@@ -82,6 +82,7 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	$(CARGO) clippy $(CHECKED) --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
 	$(CARGO) test $(CHECKED) --workspace --locked
+	@tests/netlist/test_block_registers.py
 	@scripts/synth.py --check --blysk $(TESTED)
 	@scripts/delays.py --check --blysk $(TESTED)
 	@rm -rf $(RESULTS)/frozen

@@ -27,6 +27,10 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLES = {"ECP5 25F": ROOT / "hw-model/src/clock/ecp5.json", "iCE40 UP5K": ROOT / "hw-model/src/clock/up5k.json"}
 BITS = {"ECP5 25F": 18, "iCE40 UP5K": 16}
 NAMES = ["register", "rom", "lut", "add", "carry", "multiply", "enable"]
+# Of a device whose blocks have registers at their outputs, too (scripts/block_registers.py).
+TO_REGISTER = {"ECP5 25F": ["multiply_to_register"]}
+# From the memory to the register that it has itself there is nothing that a placement could change.
+FIXED = {"ECP5 25F": {"rom_to_register": 0.0}}
 EXAMPLES = ["compact_12_bit", "compact_deep", "precise_deep", "paper_deep", "compact_12_bit_deep"]
 CONFIGURATIONS = {
     **{name: ["--preset", name] for name in ["compact", "precise", "paper", "schlick", "blooming"]},
@@ -42,11 +46,11 @@ ENDS = [
     (r"^the ROM's memory$", r"rom\.word_behind|fields_i|word_i|least_x"),
     (r"comparisons of x$", r"region|beyond|distance|at_choice"),
     (r"gate of v$", r"variable\.v_q"),
-    (r"multiplier of stage (\d)$", r"stage\[{0}\]\.multiply_add\.(product_register|pieces)"),
+    (r"multiplier of stage (\d)$", r"stage\[{0}\]\.multiply_add\.(product|pieces)"),
     (r"sum of the pieces of stage (\d)$", r"stage\[{0}\]\.multiply_add\.product_register"),
     (r"sum of stage (\d)$", r"stage\[{0}\]\.multiply_add\.(sum_register|round_sum)"),
     (r"rounding of stage (\d)$", r"stage\[{0}\]\.multiply_add\.t_q|stage\[{1}\]\.multiplicand"),
-    (r"multiplier of the divisor$", r"divisor_stage\.(product_register|pieces)"),
+    (r"multiplier of the divisor$", r"divisor_stage\.(product|pieces)"),
     (r"sum of the pieces of the divisor$", r"divisor_stage\.product_register"),
     (r"sum of the divisor$", r"divisor_stage\.(sum_register|round_sum)"),
     (r"quotient bits$", r"quotient_bits|digit_stage"),
@@ -66,23 +70,32 @@ def paths(blysk, option, table):
     return [(row["through"], row["ns"]) for row in json.loads(said)]
 
 
-def counts(blysk, option, bits):
+def counts(blysk, option, names, rest):
     """How often each delay lies on each path."""
-    ones = {name: 1.0 for name in NAMES} | {"multiplier_bits": bits}
+    ones = {name: 1.0 for name in names} | rest
     base = paths(blysk, option, ones)
-    more = [[ns for _, ns in paths(blysk, option, ones | {name: 2.0})] for name in NAMES]
+    more = [[ns for _, ns in paths(blysk, option, ones | {name: 2.0})] for name in names]
     return [(words, [other[i] - ns for other in more]) for i, (words, ns) in enumerate(base)]
 
 
-def arrivals(report):
+def setup_of_multipliers(place):
+    """What the operands of a multiplier with a register want before the clock, in nanoseconds."""
+    pattern = r"SETUPHOLD \(posedge [AB]\d+\) \(posedge CLK0\) \(\d+:\d+:(\d+)\)"
+    return max((int(found) for found in re.findall(pattern, (place / "placed.sdf").read_text())), default=0) / 1e3
+
+
+def arrivals(place):
     """When each register of a placement gets its value, by what Yosys calls it; its enable apart."""
+    report, setup = json.loads((place / "report.json").read_text()), setup_of_multipliers(place)
     latest = {}
     for net in report["detailed_net_timings"]:
         for end in net["endpoints"]:
-            name = re.sub(r"_(TRELLIS_FF|SB_DFF).*", "", end["cell"])
+            name = re.sub(r"_(TRELLIS_FF|SB_DFF|d_MULT18X18D).*", "", end["cell"])
             if end["port"] in ("CE", "CEN", "CEA", "CEB", "RCLKE", "RE"):
                 name = f"CE {name}"
             delay = max(end["delay"]) if isinstance(end["delay"], list) else end["delay"]
+            if "MULT18X18D" in end["cell"] and end["port"][0] in "AB":
+                delay += setup
             latest[name] = max(latest.get(name, 0.0), delay)
     return latest
 
@@ -101,7 +114,7 @@ def measured(words, latest):
 def fit(equations, clocks):
     """Delays of 0 or more with the least squares of relative errors. The longest path of a configuration is to be its
     clock: which one that is follows from the delays, and so it is looked for again and again."""
-    values = least_squares(equations, [1.0] * len(NAMES), 20000)
+    values = least_squares(equations, [1.0] * len(equations[0][0]), 20000)
     for _ in range(60):
         longest = []
         for rows, ns in clocks:
@@ -115,7 +128,7 @@ def fit(equations, clocks):
 
 def least_squares(equations, values, rounds):
     """One delay after the other, from the sums over all equations."""
-    every = range(len(NAMES))
+    every = range(len(values))
     among = [[sum(weight * row[i] * row[k] for row, _, weight in equations) for i in every] for k in every]
     wanted = [sum(weight * row[k] * ns for row, ns, weight in equations) for k in every]
     for _ in range(rounds):
@@ -127,12 +140,10 @@ def least_squares(equations, values, rounds):
 
 
 def placed(blysk, name, option, device):
-    """The report of a placement with the first seed; none where the configuration does not fit."""
+    """Where the configuration is placed, with the first seed; none where it does not fit."""
     rtl, sources = synth.emit(blysk, name, option)
     row = synth.row(name, device, rtl, sources)
-    if row["fits"] != "yes":
-        return None
-    return json.loads((synth.WORK / name / device.replace(" ", "_") / "report.json").read_text())
+    return synth.WORK / name / device.replace(" ", "_") if row["fits"] == "yes" else None
 
 
 def estimates(blysk):
@@ -178,36 +189,43 @@ def main():
     parser.add_argument("--blysk", default="blysk", help="the command that writes the RTL")
     parser.add_argument("--show", action="store_true", help="only write the estimates into docs/SYNTHESIS.md")
     parser.add_argument("--check", action="store_true", help="only tell whether those there are up to date")
-    parser.add_argument("--reuse", action="store_true", help="take the reports of the last run where they are")
+    parser.add_argument("--device", choices=TABLES, help="the table of this one alone")
+    parser.add_argument("--reuse", action="store_true", help="take the placements of the last run where they are")
     args = parser.parse_args()
     os.environ["PATH"] = f"{synth.VENV}:{os.environ['PATH']}"
     if args.show or args.check:
         sys.exit(show(args.blysk, args.check))
     synth.SEEDS = synth.SEEDS[:1]
-    synth.COMMON = synth.COMMON.replace("--quiet", "--detailed-timing-report --quiet")
+    synth.COMMON = synth.COMMON.replace("--quiet", "--detailed-timing-report --sdf placed.sdf --quiet")
     for device, file in TABLES.items():
-        equations, clocks = [], []
-        for name, option in CONFIGURATIONS.items():
-            report = synth.WORK / name / device.replace(" ", "_") / "report.json"
-            found = json.loads(report.read_text()) if args.reuse and report.exists() else None
-            found = found or (None if args.reuse else placed(args.blysk, name, option, device))
-            if not found or "detailed_net_timings" not in found:
-                continue
-            latest = arrivals(found)
-            longest = max(latest.values())
-            rows = counts(args.blysk, option, BITS[device])
-            clocks.append(([row for _, row in rows], longest))
-            for words, row in rows:
-                ns = measured(words, latest)
-                print(f"{name:20}{device:12}{ns or 0:7.2f}  {words}", flush=True)
-                if ns:
-                    equations.append((row, ns, (ns / longest) ** 4 / ns**2))
-        if not equations:
-            sys.exit(f"delays: no placement for {device}")
-        fitted = {key: round(value, 3) for key, value in zip(NAMES, fit(equations, clocks))}
-        table = fitted | {"multiplier_bits": BITS[device]}
+        if args.device not in (None, device):
+            continue
+        table = fitted(args.blysk, device, args.reuse)
         file.write_text(json.dumps(table, indent=2) + "\n")
         print(f"{file.name}: {table}")
+
+
+def fitted(blysk, device, reuse):
+    """The table of a device."""
+    names, rest = NAMES + TO_REGISTER.get(device, []), FIXED.get(device, {}) | {"multiplier_bits": BITS[device]}
+    equations, clocks = [], []
+    for name, option in CONFIGURATIONS.items():
+        known = synth.WORK / name / device.replace(" ", "_")
+        place = known if reuse and (known / "placed.sdf").exists() else placed(blysk, name, option, device)
+        if not place:
+            continue
+        latest = arrivals(place)
+        longest = max(latest.values())
+        rows = counts(blysk, option, names, rest)
+        clocks.append(([row for _, row in rows], longest))
+        for words, row in rows:
+            ns = measured(words, latest)
+            print(f"{name:20}{device:12}{ns or 0:7.2f}  {words}", flush=True)
+            if ns:
+                equations.append((row, ns, (ns / longest) ** 4 / ns**2))
+    if not equations:
+        sys.exit(f"delays: no placement for {device}")
+    return {key: round(value, 3) for key, value in zip(names, fit(equations, clocks))} | rest
 
 
 if __name__ == "__main__":

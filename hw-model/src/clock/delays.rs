@@ -32,6 +32,12 @@ pub struct Delays {
     pub carry: f64,
     /// Through a multiplier of `multiplier_bits`.
     pub multiply: f64,
+    /// Instead of `rom`, to a rank right behind the memory, on a device whose memories have a register at the output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rom_to_register: Option<f64>,
+    /// The same of a multiplier, instead of `multiply`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub multiply_to_register: Option<f64>,
     /// To the enables of a rank of registers.
     pub enable: f64,
     /// The operands that one multiplier takes, in bits without a sign.
@@ -81,7 +87,7 @@ impl Delays {
     /// # Errors
     /// Names the field and what would be right.
     pub fn check(&self) -> Result<(), String> {
-        let Self { register, rom, lut, add, carry, multiply, enable, multiplier_bits } = *self;
+        let Self { register, rom, lut, add, carry, multiply, enable, .. } = *self;
         let named = [
             ("register", register),
             ("rom", rom),
@@ -90,6 +96,8 @@ impl Delays {
             ("carry", carry),
             ("multiply", multiply),
             ("enable", enable),
+            ("rom_to_register", self.rom_to_register.unwrap_or_default()),
+            ("multiply_to_register", self.multiply_to_register.unwrap_or_default()),
         ];
         for (name, ns) in named {
             if !(0.0..=1000.0).contains(&ns) {
@@ -99,8 +107,9 @@ impl Delays {
         if register == 0.0 {
             return Err("\"register\" is above 0: no path is shorter than what a register takes".to_owned());
         }
-        if !(2..=64).contains(&multiplier_bits) {
-            return Err(format!("\"multiplier_bits\" are those of an operand: use 2 to 64, not {multiplier_bits}"));
+        if !(2..=64).contains(&self.multiplier_bits) {
+            let bits = self.multiplier_bits;
+            return Err(format!("\"multiplier_bits\" are those of an operand: use 2 to 64, not {bits}"));
         }
         Ok(())
     }
@@ -112,15 +121,28 @@ impl Delays {
     }
 
     /// The number of multipliers that a product of such operands takes.
-    fn pieces(&self, multiplicand: u32, variable: u32) -> u32 {
+    #[must_use]
+    pub fn pieces(&self, multiplicand: u32, variable: u32) -> u32 {
         multiplicand.div_ceil(self.multiplier_bits) * variable.div_ceil(self.multiplier_bits)
     }
 
     /// The products of the pieces of two operands.
+    ///
+    /// `registered` where a rank follows them, before any sum.
     #[must_use]
-    pub fn partial_products(&self, multiplicand: u32) -> f64 {
-        // A multiplicand of one bit lets the variable through or not.
-        if multiplicand == 1 { self.lut } else { self.multiply }
+    pub fn partial_products(&self, multiplicand: u32, registered: bool) -> f64 {
+        match (multiplicand, registered) {
+            // A multiplicand of one bit lets the variable through or not.
+            (1, _) => self.lut,
+            (_, true) => self.multiply_to_register.unwrap_or(self.multiply),
+            (_, false) => self.multiply,
+        }
+    }
+
+    /// The ROM's memory; `registered` where a rank follows it.
+    #[must_use]
+    pub fn memory(&self, registered: bool) -> f64 {
+        if registered { self.rom_to_register.unwrap_or(self.rom) } else { self.rom }
     }
 
     /// The sum of the products of pieces: two at a time.

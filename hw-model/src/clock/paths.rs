@@ -86,7 +86,7 @@ fn head(datapath: &Datapath, pipelining: &Pipelining, trail: &mut Trail<'_>) {
     let delays = trail.delays;
     let segments = datapath.segment_count() as u32;
     let x = datapath.tail_x_format().width();
-    trail.part("the ROM's memory", delays.rom);
+    trail.part("the ROM's memory", delays.memory(pipelining.rom));
     trail.register(pipelining.rom);
     let subtraction = match datapath.front_end().variable {
         Some(Variable::U { .. }) => delays.adder(x),
@@ -130,8 +130,10 @@ fn multiply_add(datapath: &Datapath, pipelining: &Pipelining, line: usize, trail
         0 => format!("{part} of the divisor"),
         _ => format!("{part} of stage {line}"),
     };
-    trail.part(of("multiplier"), delays.partial_products(multiplicand));
-    trail.register(pipelining.product > 1);
+    let pieces_end = pipelining.product > 1;
+    let product_ends = pipelining.product > 0 && delays.pieces(multiplicand, variable) == 1;
+    trail.part(of("multiplier"), delays.partial_products(multiplicand, pieces_end || product_ends));
+    trail.register(pieces_end);
     trail.part(of("sum of the pieces"), delays.sum_of_pieces(multiplicand, variable));
     trail.register(pipelining.product > 0);
     trail.part(of("sum"), delays.adder(multiplicand + variable));
