@@ -4,11 +4,13 @@
     python speed.py --memory              what 10⁸ samples hold
 
 Builds `hw-model/bindings/model/examples/speed.rs` and `tests/src/bin/verilated.rs` with cargo's profile release, which
-is the wheel's. All times are those of the processor, and of nine runs (of Verilator five) the fastest counts.
+is the wheel's. All times are those of the processor. Rust and Python take turns, as others may use the machine too: in
+a turn the fastest of five runs counts, and of the turns the median. A ratio is the median of those of the turns.
 """
 
 import json
 import resource
+import statistics
 import subprocess
 import sys
 import time
@@ -19,6 +21,7 @@ import numpy as np
 
 SAMPLES = 1 << 22
 CALLS = 100_000
+TURNS = 7
 
 
 def seconds(job):
@@ -30,7 +33,7 @@ def seconds(job):
         job()
         return time.thread_time() - start
 
-    return min(timed() for _ in range(9))
+    return min(timed() for _ in range(5))
 
 
 def call_ns(job):
@@ -49,13 +52,17 @@ def measure(preset):
     xs = np.arange(SAMPLES) * 2 + 1
     addresses = (np.arange(SAMPLES, dtype=np.uint32) * np.uint32(2654435761)) >> np.uint32(24)
     reals = np.linspace(0, 1, SAMPLES)
+    out = np.empty(SAMPLES, np.int64), np.empty(SAMPLES, np.uint8)
     valid, ready = np.ones(SAMPLES, bool), np.arange(SAMPLES) % 8 != 0
     return {
         "one": SAMPLES / seconds(lambda: model.evaluate(63, xs)),
+        "one_out": SAMPLES / seconds(lambda: model.evaluate(63, xs, out=out)),
         "each": SAMPLES / seconds(lambda: model.evaluate(addresses, xs)),
+        "each_out": SAMPLES / seconds(lambda: model.evaluate(addresses, xs, out=out)),
         "highlight": SAMPLES / seconds(lambda: model.highlight(64, reals)),
         "scalar_ns": call_ns(lambda x: model.evaluate(63, x)),
         "registers_ns": call_ns(lambda x: model.registers(address=63, x_bits=x)),
+        "read_ns": call_ns(lambda x: [r.bits for r in model.registers(address=63, x_bits=x).values()]),
         "tick_ns": call_ns(lambda x, tick=blysk.Pipeline(model).tick: tick(True, 63, x, x & 7 != 0)),
         "run": SAMPLES / seconds(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)),
     }
@@ -77,29 +84,53 @@ def row(*cells):
     print("| " + " | ".join(cells) + " |", flush=True)
 
 
+#: Lines of the table: what is measured, its key in Python and in Rust, and its unit. These are rates.
+RATES = [
+    ("array, one address", "one", "block", "samples"),
+    ("array, one address, `out=`", "one_out", "block", "samples"),
+    ("array, an address for each", "each", "each", "samples"),
+    ("array, an address for each, `out=`", "each_out", "each", "samples"),
+    ("`highlight`, real numbers", "highlight", None, "samples"),
+    ("`run`, cycles in arrays", "run", "tick", "cycles"),
+]
+#: The others are times of a call.
+CALLED = [
+    ("`evaluate`, a call", "scalar_ns", "scalar_ns"),
+    ("`registers`, a call", "registers_ns", "registers_ns"),
+    ("`registers`, and every one read", "read_ns", "registers_ns"),
+    ("`tick`, a call", "tick_ns", "tick_ns"),
+]
+
+
+def turn(preset):
+    """What Rust and Python measure, one after the other."""
+    [rust] = told(["--package", "model", "--example", "speed"], [preset])
+    return rust | {"tick": 1e9 / rust["tick_ns"]}, measure(preset)
+
+
+def table(preset, rtl, turns):
+    """Prints the lines of a preset. A sample of the RTL, of which there are `rtl` a second, is a cycle."""
+
+    def line(what, ours, theirs, told, rate):
+        there = statistics.median(rust[theirs] for rust, _ in turns) if theirs else None
+        here = statistics.median(python[ours] for _, python in turns)
+        ratio = f"{statistics.median(python[ours] / rust[theirs] for rust, python in turns):.2f}" if theirs else ""
+        row(f"`{preset}`", what, told(there) if theirs else "", told(here), ratio, f"{rate(here) / rtl:.2g} x")
+
+    for what, ours, theirs, unit in RATES:
+        line(what, ours, theirs, lambda rate, unit=unit: f"{rate / 1e6:.1f} M {unit}/s", lambda rate: rate)
+    for what, ours, theirs in CALLED:
+        line(what, ours, theirs, lambda ns: f"{ns:.0f} ns", lambda ns: 1e9 / ns)
+    row(f"`{preset}`", "the RTL in Verilator", "", "", "", f"{rtl / 1e6:.1f} M cycles/s")
+
+
 def speeds(presets):
     """Prints the table."""
     row("preset", "what", "Rust", "Python", "Python to Rust", "beside the RTL in Verilator")
     row(*["---"] * 6)
     for preset in presets:
         [rtl] = told(["--package", "blysk-tests", "--bin", "verilated"], [preset])
-        [rust] = told(["--package", "model", "--example", "speed"], [preset])
-        python, name = measure(preset), f"`{preset}`"
-
-        def rates(what, unit, ours, theirs=None):
-            # A sample of the RTL is a cycle.
-            there, ratio = (f"{theirs / 1e6:.1f} M {unit}/s", f"{ours / theirs:.2f}") if theirs else ("", "")
-            row(name, what, there, f"{ours / 1e6:.1f} M {unit}/s", ratio, f"{ours / rtl['cycles']:.2g} x")
-
-        rates("array, one address", "samples", python["one"], rust["block"])
-        rates("array, an address for each", "samples", python["each"], rust["each"])
-        rates("`highlight`, real numbers", "samples", python["highlight"])
-        rates("`run`, cycles in arrays", "cycles", python["run"], 1e9 / rust["tick_ns"])
-        for call, what in (("scalar", "`evaluate`"), ("registers", "`registers`"), ("tick", "`tick`")):
-            ours, theirs = python[f"{call}_ns"], rust[f"{call}_ns"]
-            beside = f"{1e9 / ours / rtl['cycles']:.2g} x"
-            row(name, f"{what}, a call", f"{theirs:.0f} ns", f"{ours:.0f} ns", f"{ours / theirs:.1f}", beside)
-        row(name, "the RTL in Verilator", "", "", "", f"{rtl['cycles'] / 1e6:.1f} M cycles/s")
+        table(preset, rtl["cycles"], [turn(preset) for _ in range(TURNS)])
 
 
 def memory():
