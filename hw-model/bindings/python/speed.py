@@ -4,8 +4,8 @@
     python speed.py --memory              what 10⁸ samples hold
 
 Builds `hw-model/bindings/model/examples/speed.rs` and `tests/src/bin/verilated.rs` with cargo's profile release, which
-is the wheel's. All times are those of the processor. Rust and Python take turns, as others may use the machine too: in
-a turn the fastest of five runs counts, and of the turns the median. A ratio is the median of those of the turns.
+is the wheel's. All times are those of the processor. Rust and Python take turns, as others may use the machine too, and
+the median of the turns counts; a ratio is the median of the ratios.
 """
 
 import json
@@ -14,69 +14,92 @@ import statistics
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import blysk
 import numpy as np
 
 SAMPLES = 1 << 22
-CALLS = 100_000
-TURNS = 7
+CALLS = 20_000
+TURNS = 15
 
 
-def seconds(job):
-    """The least time of several runs."""
-
-    def timed():
-        # Of the processor, so that what else the machine does counts little.
-        start = time.thread_time()
-        job()
-        return time.thread_time() - start
-
-    return min(timed() for _ in range(5))
+def nanoseconds(job):
+    """The time that the processor had for a job: what else the machine does counts little."""
+    start = time.thread_time_ns()
+    job()
+    return time.thread_time_ns() - start
 
 
-def call_ns(job):
-    """Nanoseconds of a call of `job`, the loop around it included."""
+def a_sample(job):
+    """Nanoseconds of a sample or a cycle, where the job is one over arrays."""
+    return lambda: nanoseconds(job) / SAMPLES
+
+
+def a_call(job):
+    """Nanoseconds of a call of the job, the loop around it included."""
 
     def loop():
         for x in range(0, 80 * CALLS, 80):
             job(x)
 
-    return seconds(loop) / CALLS * 1e9
+    return lambda: nanoseconds(loop) / CALLS
 
 
-def measure(preset):
-    """What the Rust example measures, and the clock over arrays."""
-    model = blysk.Model.preset(preset)
+def measures(model):
+    """What is measured: its name, how, the measure of the Rust example beside it, and the unit of a rate."""
     xs = np.arange(SAMPLES) * 2 + 1
     addresses = (np.arange(SAMPLES, dtype=np.uint32) * np.uint32(2654435761)) >> np.uint32(24)
     reals = np.linspace(0, 1, SAMPLES)
     out = np.empty(SAMPLES, np.int64), np.empty(SAMPLES, np.uint8)
-    valid, ready = np.ones(SAMPLES, bool), np.arange(SAMPLES) % 8 != 0
-    return {
-        "one": SAMPLES / seconds(lambda: model.evaluate(63, xs)),
-        "one_out": SAMPLES / seconds(lambda: model.evaluate(63, xs, out=out)),
-        "each": SAMPLES / seconds(lambda: model.evaluate(addresses, xs)),
-        "each_out": SAMPLES / seconds(lambda: model.evaluate(addresses, xs, out=out)),
-        "highlight": SAMPLES / seconds(lambda: model.highlight(64, reals)),
-        "scalar_ns": call_ns(lambda x: model.evaluate(63, x)),
-        "registers_ns": call_ns(lambda x: model.registers(address=63, x_bits=x)),
-        "read_ns": call_ns(lambda x: [r.bits for r in model.registers(address=63, x_bits=x).values()]),
-        "tick_ns": call_ns(lambda x, tick=blysk.Pipeline(model).tick: tick(True, 63, x, x & 7 != 0)),
-        "run": SAMPLES / seconds(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)),
-    }
+    valid, ready = np.ones(SAMPLES, bool), xs & 7 != 0
+    tick = blysk.Pipeline(model).tick
+
+    def read_all(x):
+        return [register.bits for register in model.registers(address=63, x_bits=x).values()]
+
+    return [
+        ("array, one address", a_sample(lambda: model.evaluate(63, xs)), "block", "samples"),
+        ("array, one address, `out=`", a_sample(lambda: model.evaluate(63, xs, out=out)), "block", "samples"),
+        ("array, an address for each", a_sample(lambda: model.evaluate(addresses, xs)), "each", "samples"),
+        ("array, an address for each, `out=`", a_sample(lambda: model.evaluate(addresses, xs, out=out)), "each", "samples"),
+        ("`highlight`, real numbers", a_sample(lambda: model.highlight(64, reals)), None, "samples"),
+        ("`run`, cycles in arrays", a_sample(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)), "tick", "cycles"),
+        ("`evaluate`, a call", a_call(lambda x: model.evaluate(63, x)), "scalar", None),
+        ("`registers`, a call", a_call(lambda x: model.registers(address=63, x_bits=x)), "registers", None),
+        ("`registers`, and every one read", a_call(read_all), "registers", None),
+        ("`tick`, a call", a_call(lambda x: tick(True, 63, x, x & 7 != 0)), "tick", None),
+    ]
 
 
-def told(command, presets):
-    """What a program of the clone says of each preset, in lines of JSON."""
-    run = subprocess.run(
-        ["cargo", "run", "--release", "--locked", "--quiet", *command, "--", *presets],
+def cargo(*command):
+    """A program of the clone, as its users build it."""
+    return {"args": ["cargo", "run", "--release", "--locked", "--quiet", *command], "cwd": Path(__file__).parent}
+
+
+@contextmanager
+def rust(preset):
+    """A function that has the Rust example measure something."""
+    with subprocess.Popen(
+        **cargo("--package", "model", "--example", "speed", "--", preset),
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        check=True,
-        cwd=Path(__file__).parent,
-    )
-    return [json.loads(line) for line in run.stdout.decode().splitlines()]
+        text=True,
+    ) as example:
+
+        def ask(what):
+            print(what, file=example.stdin, flush=True)
+            return float(example.stdout.readline())
+
+        yield ask
+        example.stdin.close()
+
+
+def rtl_cycles(preset):
+    """Cycles a second of the RTL in Verilator."""
+    command = cargo("--package", "blysk-tests", "--bin", "verilated", "--", preset)
+    return json.loads(subprocess.run(**command, stdout=subprocess.PIPE, check=True).stdout)["cycles"]
 
 
 def row(*cells):
@@ -84,53 +107,25 @@ def row(*cells):
     print("| " + " | ".join(cells) + " |", flush=True)
 
 
-#: Lines of the table: what is measured, its key in Python and in Rust, and its unit. These are rates.
-RATES = [
-    ("array, one address", "one", "block", "samples"),
-    ("array, one address, `out=`", "one_out", "block", "samples"),
-    ("array, an address for each", "each", "each", "samples"),
-    ("array, an address for each, `out=`", "each_out", "each", "samples"),
-    ("`highlight`, real numbers", "highlight", None, "samples"),
-    ("`run`, cycles in arrays", "run", "tick", "cycles"),
-]
-#: The others are times of a call.
-CALLED = [
-    ("`evaluate`, a call", "scalar_ns", "scalar_ns"),
-    ("`registers`, a call", "registers_ns", "registers_ns"),
-    ("`registers`, and every one read", "read_ns", "registers_ns"),
-    ("`tick`, a call", "tick_ns", "tick_ns"),
-]
-
-
-def turn(preset):
-    """What Rust and Python measure, one after the other."""
-    [rust] = told(["--package", "model", "--example", "speed"], [preset])
-    return rust | {"tick": 1e9 / rust["tick_ns"]}, measure(preset)
-
-
-def table(preset, rtl, turns):
-    """Prints the lines of a preset. A sample of the RTL, of which there are `rtl` a second, is a cycle."""
-
-    def line(what, ours, theirs, told, rate):
-        there = statistics.median(rust[theirs] for rust, _ in turns) if theirs else None
-        here = statistics.median(python[ours] for _, python in turns)
-        ratio = f"{statistics.median(python[ours] / rust[theirs] for rust, python in turns):.2f}" if theirs else ""
-        row(f"`{preset}`", what, told(there) if theirs else "", told(here), ratio, f"{rate(here) / rtl:.2g} x")
-
-    for what, ours, theirs, unit in RATES:
-        line(what, ours, theirs, lambda rate, unit=unit: f"{rate / 1e6:.1f} M {unit}/s", lambda rate: rate)
-    for what, ours, theirs in CALLED:
-        line(what, ours, theirs, lambda ns: f"{ns:.0f} ns", lambda ns: 1e9 / ns)
-    row(f"`{preset}`", "the RTL in Verilator", "", "", "", f"{rtl / 1e6:.1f} M cycles/s")
+def told(ns, unit):
+    """A time as the table has it: as a rate where there is a unit."""
+    return f"{1e3 / ns:.1f} M {unit}/s" if unit else f"{ns:.0f} ns"
 
 
 def speeds(presets):
-    """Prints the table."""
-    row("preset", "what", "Rust", "Python", "Python to Rust", "beside the RTL in Verilator")
+    """Prints the table. A sample of the RTL is a cycle."""
+    row("preset", "what", "Rust", "Python", "speed of Python to Rust", "beside the RTL in Verilator")
     row(*["---"] * 6)
     for preset in presets:
-        [rtl] = told(["--package", "blysk-tests", "--bin", "verilated"], [preset])
-        table(preset, rtl["cycles"], [turn(preset) for _ in range(TURNS)])
+        rtl = rtl_cycles(preset)
+        with rust(preset) as ask:
+            for what, measure, beside, unit in measures(blysk.Model.preset(preset)):
+                turns = [(ask(beside) if beside else 0, measure()) for _ in range(TURNS)]
+                theirs, ours = (statistics.median(times) for times in zip(*turns))
+                ratio = f"{statistics.median(their / our for their, our in turns):.2f}"
+                there, ratio = (told(theirs, unit), ratio) if beside else ("", "")
+                row(f"`{preset}`", what, there, told(ours, unit), ratio, f"{1e9 / ours / rtl:.2g} x")
+        row(f"`{preset}`", "the RTL in Verilator", "", "", "", f"{rtl / 1e6:.1f} M cycles/s")
 
 
 def memory():

@@ -266,6 +266,20 @@ def test_what_is_refused_says_what_would_be_right(compact, tmp_path):
     assert "one request" in said(TypeError, lambda: compact.registers([1, 2], 0.5))
 
 
+@pytest.mark.parametrize("format", ["UQ1.23", "Q2.22"])
+def test_the_first_x_outside_the_format_is_named(compact, format):
+    model = blysk.Model.from_json(compact.configuration.replace("UQ1.23", format))
+    x = model.formats["x"]
+    xs = np.resize([x.min_bits, 0, x.max_bits], 3000)
+    wanted = model.evaluate(63, xs)
+    assert np.array_equal(wanted, model.evaluate(np.full(3000, 63), xs))
+    for refused in (x.min_bits - 1, x.max_bits + 1, -(1 << 63), (1 << 63) - 1):
+        outside = xs.copy()
+        outside[[1999, 2500]] = refused
+        with pytest.raises(blysk.InputError, match=f"^sample 1999: x: the bits {refused} do not fit {format},"):
+            model.evaluate(63, outside)
+
+
 def test_threads_share_a_model(compact):
     from concurrent.futures import ThreadPoolExecutor
 
