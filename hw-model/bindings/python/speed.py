@@ -4,72 +4,102 @@
     python speed.py --memory              what 10⁸ samples hold
 
 Builds `hw-model/bindings/model/examples/speed.rs` and `tests/src/bin/verilated.rs` with cargo's profile release, which
-is the wheel's. All times are those of the processor, and of nine runs (of Verilator five) the fastest counts.
+is the wheel's. All times are those of the processor. Rust and Python take turns, as others may use the machine too, and
+the median of the turns counts; a ratio is the median of the ratios.
 """
 
 import json
 import resource
+import statistics
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import blysk
 import numpy as np
 
 SAMPLES = 1 << 22
-CALLS = 100_000
+CALLS = 20_000
+TURNS = 15
 
 
-def seconds(job):
-    """The least time of several runs."""
-
-    def timed():
-        # Of the processor, so that what else the machine does counts little.
-        start = time.thread_time()
-        job()
-        return time.thread_time() - start
-
-    return min(timed() for _ in range(9))
+def nanoseconds(job):
+    """The time that the processor had for a job: what else the machine does counts little."""
+    start = time.thread_time_ns()
+    job()
+    return time.thread_time_ns() - start
 
 
-def call_ns(job):
-    """Nanoseconds of a call of `job`, the loop around it included."""
+def a_sample(job):
+    """Nanoseconds of a sample or a cycle, where the job is one over arrays."""
+    return lambda: nanoseconds(job) / SAMPLES
+
+
+def a_call(job):
+    """Nanoseconds of a call of the job, the loop around it included."""
 
     def loop():
         for x in range(0, 80 * CALLS, 80):
             job(x)
 
-    return seconds(loop) / CALLS * 1e9
+    return lambda: nanoseconds(loop) / CALLS
 
 
-def measure(preset):
-    """What the Rust example measures, and the clock over arrays."""
-    model = blysk.Model.preset(preset)
+def measures(model):
+    """What is measured: its name, how, the measure of the Rust example beside it, and the unit of a rate."""
     xs = np.arange(SAMPLES) * 2 + 1
     addresses = (np.arange(SAMPLES, dtype=np.uint32) * np.uint32(2654435761)) >> np.uint32(24)
     reals = np.linspace(0, 1, SAMPLES)
-    valid, ready = np.ones(SAMPLES, bool), np.arange(SAMPLES) % 8 != 0
-    return {
-        "one": SAMPLES / seconds(lambda: model.evaluate(63, xs)),
-        "each": SAMPLES / seconds(lambda: model.evaluate(addresses, xs)),
-        "highlight": SAMPLES / seconds(lambda: model.highlight(64, reals)),
-        "scalar_ns": call_ns(lambda x: model.evaluate(63, x)),
-        "registers_ns": call_ns(lambda x: model.registers(address=63, x_bits=x)),
-        "tick_ns": call_ns(lambda x, tick=blysk.Pipeline(model).tick: tick(True, 63, x, x & 7 != 0)),
-        "run": SAMPLES / seconds(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)),
-    }
+    out = np.empty(SAMPLES, np.int64), np.empty(SAMPLES, np.uint8)
+    valid, ready = np.ones(SAMPLES, bool), xs & 7 != 0
+    tick = blysk.Pipeline(model).tick
+
+    def read_all(x):
+        return [register.bits for register in model.registers(address=63, x_bits=x).values()]
+
+    return [
+        ("array, one address", a_sample(lambda: model.evaluate(63, xs)), "block", "samples"),
+        ("array, one address, `out=`", a_sample(lambda: model.evaluate(63, xs, out=out)), "block", "samples"),
+        ("array, an address for each", a_sample(lambda: model.evaluate(addresses, xs)), "each", "samples"),
+        ("array, an address for each, `out=`", a_sample(lambda: model.evaluate(addresses, xs, out=out)), "each", "samples"),
+        ("`highlight`, real numbers", a_sample(lambda: model.highlight(64, reals)), None, "samples"),
+        ("`run`, cycles in arrays", a_sample(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)), "tick", "cycles"),
+        ("`evaluate`, a call", a_call(lambda x: model.evaluate(63, x)), "scalar", None),
+        ("`registers`, a call", a_call(lambda x: model.registers(address=63, x_bits=x)), "registers", None),
+        ("`registers`, and every one read", a_call(read_all), "registers", None),
+        ("`tick`, a call", a_call(lambda x: tick(True, 63, x, x & 7 != 0)), "tick", None),
+    ]
 
 
-def told(command, presets):
-    """What a program of the clone says of each preset, in lines of JSON."""
-    run = subprocess.run(
-        ["cargo", "run", "--release", "--locked", "--quiet", *command, "--", *presets],
+def cargo(*command):
+    """A program of the clone, as its users build it."""
+    return {"args": ["cargo", "run", "--release", "--locked", "--quiet", *command], "cwd": Path(__file__).parent}
+
+
+@contextmanager
+def rust(preset):
+    """A function that has the Rust example measure something."""
+    with subprocess.Popen(
+        **cargo("--package", "model", "--example", "speed", "--", preset),
+        stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
-        check=True,
-        cwd=Path(__file__).parent,
-    )
-    return [json.loads(line) for line in run.stdout.decode().splitlines()]
+        text=True,
+    ) as example:
+
+        def ask(what):
+            print(what, file=example.stdin, flush=True)
+            return float(example.stdout.readline())
+
+        yield ask
+        example.stdin.close()
+
+
+def rtl_cycles(preset):
+    """Cycles a second of the RTL in Verilator."""
+    command = cargo("--package", "blysk-tests", "--bin", "verilated", "--", preset)
+    return json.loads(subprocess.run(**command, stdout=subprocess.PIPE, check=True).stdout)["cycles"]
 
 
 def row(*cells):
@@ -77,29 +107,25 @@ def row(*cells):
     print("| " + " | ".join(cells) + " |", flush=True)
 
 
+def told(ns, unit):
+    """A time as the table has it: as a rate where there is a unit."""
+    return f"{1e3 / ns:.1f} M {unit}/s" if unit else f"{ns:.0f} ns"
+
+
 def speeds(presets):
-    """Prints the table."""
-    row("preset", "what", "Rust", "Python", "Python to Rust", "beside the RTL in Verilator")
+    """Prints the table. A sample of the RTL is a cycle."""
+    row("preset", "what", "Rust", "Python", "speed of Python to Rust", "beside the RTL in Verilator")
     row(*["---"] * 6)
     for preset in presets:
-        [rtl] = told(["--package", "blysk-tests", "--bin", "verilated"], [preset])
-        [rust] = told(["--package", "model", "--example", "speed"], [preset])
-        python, name = measure(preset), f"`{preset}`"
-
-        def rates(what, unit, ours, theirs=None):
-            # A sample of the RTL is a cycle.
-            there, ratio = (f"{theirs / 1e6:.1f} M {unit}/s", f"{ours / theirs:.2f}") if theirs else ("", "")
-            row(name, what, there, f"{ours / 1e6:.1f} M {unit}/s", ratio, f"{ours / rtl['cycles']:.2g} x")
-
-        rates("array, one address", "samples", python["one"], rust["block"])
-        rates("array, an address for each", "samples", python["each"], rust["each"])
-        rates("`highlight`, real numbers", "samples", python["highlight"])
-        rates("`run`, cycles in arrays", "cycles", python["run"], 1e9 / rust["tick_ns"])
-        for call, what in (("scalar", "`evaluate`"), ("registers", "`registers`"), ("tick", "`tick`")):
-            ours, theirs = python[f"{call}_ns"], rust[f"{call}_ns"]
-            beside = f"{1e9 / ours / rtl['cycles']:.2g} x"
-            row(name, f"{what}, a call", f"{theirs:.0f} ns", f"{ours:.0f} ns", f"{ours / theirs:.1f}", beside)
-        row(name, "the RTL in Verilator", "", "", "", f"{rtl['cycles'] / 1e6:.1f} M cycles/s")
+        rtl = rtl_cycles(preset)
+        with rust(preset) as ask:
+            for what, measure, beside, unit in measures(blysk.Model.preset(preset)):
+                turns = [(ask(beside) if beside else 0, measure()) for _ in range(TURNS)]
+                theirs, ours = (statistics.median(times) for times in zip(*turns))
+                ratio = f"{statistics.median(their / our for their, our in turns):.2f}"
+                there, ratio = (told(theirs, unit), ratio) if beside else ("", "")
+                row(f"`{preset}`", what, there, told(ours, unit), ratio, f"{1e9 / ours / rtl:.2g} x")
+        row(f"`{preset}`", "the RTL in Verilator", "", "", "", f"{rtl / 1e6:.1f} M cycles/s")
 
 
 def memory():

@@ -129,9 +129,9 @@ impl<const W: usize> Words<W> {
         }
         for field in datapath.rom.layout().fields() {
             if let Place::Stored { .. } = field.place {
-                let values = &mut self.fields[field.name.index()];
-                for (value, row) in values.iter_mut().zip(rows) {
-                    *value = row.get(field.name);
+                let index = field.name.index();
+                for (value, row) in self.fields[index].iter_mut().zip(rows) {
+                    *value = row.at(index);
                 }
             }
         }

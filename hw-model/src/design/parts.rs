@@ -44,8 +44,9 @@ impl Parts {
     /// Adds a field whose bits are given for each row.
     pub(super) fn add_field(&mut self, name: Register, format: QFormat, bits: impl Iterator<Item = i64>) {
         self.fields.push((name, format));
+        let index = name.index();
         for (row, bits) in self.rom_rows.iter_mut().zip(bits) {
-            row.set(name, bits);
+            row.set_at(index, bits);
         }
     }
 }

@@ -8,6 +8,8 @@
 //
 //   bind blysk blysk_checker #(.CONFIGURATION("compact")) checker_of_dut (.*);
 //
+// A DUT whose reset is active low has the port rst_ni in place of rst_i: (.rst_i(!rst_ni), .*).
+//
 // CONFIGURATION is the name of a preset, the path of a file of JSON (anything that has ".json" in it), or the text of
 // such a file (anything that begins with a brace).
 //

@@ -109,10 +109,12 @@ impl Model {
     /// Whether the input format holds all of these; or the first that is refused, with its place.
     fn all_held(&self, xs: &[i64]) -> Result<(), (usize, Error)> {
         let input = self.datapath().formats().input;
-        let (least, greatest) = (input.min_bits(), input.max_bits());
-        // No choice in the loop, so that it becomes vector instructions.
-        let refused = xs.iter().fold(false, |refused, &x| refused | (x < least) | (x > greatest));
-        if !refused {
+        // Counted from the least, what the format holds is 0 to a number of ones alone. So the bits that any x has say
+        // whether all fit, without a comparison in the loop: it becomes vector instructions on every processor.
+        let least = input.min_bits();
+        let ones = input.max_bits().wrapping_sub(least) as u64;
+        let any = xs.iter().fold(0, |any, &x| any | x.wrapping_sub(least) as u64);
+        if any & !ones == 0 {
             return Ok(());
         }
         let first = xs.iter().enumerate().find_map(|(place, &x)| self.held(x).err().map(|error| (place, error)));

@@ -22,7 +22,7 @@ PORTS = {
 
 @cocotb.test()
 async def answers_as_the_model(dut):
-    bench = Highlight(dut, blysk.Model.preset(os.environ["BLYSK_PRESET"]), ports=PORTS, registers=False)
+    bench = Highlight(dut, blysk.Model.from_file(os.environ["BLYSK_CONFIGURATION"]), ports=PORTS, registers=False)
     await bench.reset()
     results = await bench.send(bench.stimulus(500))
     dut._log.info(f"{results} results compared")
@@ -30,7 +30,7 @@ async def answers_as_the_model(dut):
 
 @cocotb.test()
 async def answers_without_a_gap(dut):
-    bench = Highlight(dut, blysk.Model.preset(os.environ["BLYSK_PRESET"]), ports=PORTS, gaps=0, stalls=0)
+    bench = Highlight(dut, blysk.Model.from_file(os.environ["BLYSK_CONFIGURATION"]), ports=PORTS, gaps=0, stalls=0)
     await bench.reset()
     await bench.send(bench.stimulus(200, strategy="random"))
     assert bench.monitor.cycles < 200 + bench.model.latency + 20

@@ -114,7 +114,7 @@ class AnswersAsTheModel(uvm_test):
     """Every answer of the design is the model's."""
 
     def build_phase(self):
-        bench = Highlight(cocotb.top, blysk.Model.preset(os.environ["BLYSK_PRESET"]), registers=False)
+        bench = Highlight(cocotb.top, blysk.Model.from_file(os.environ["BLYSK_CONFIGURATION"]), registers=False)
         ConfigDB().set(None, "*", "BENCH", bench)
         self.bench = bench
         self.env = Environment("env", self)

@@ -6,9 +6,7 @@ use pyo3::prelude::*;
 
 use crate::arrays::{Reals, Whole};
 use crate::errors;
-
-/// Intensities and status of many requests.
-type Answers<'py> = (Bound<'py, PyArrayDyn<i64>>, Bound<'py, PyArrayDyn<u8>>);
+use crate::out::{Answers, Out};
 
 /// `evaluate` over arrays. The shape of the answers is that of x.
 pub(crate) fn evaluate<'py>(
@@ -16,12 +14,13 @@ pub(crate) fn evaluate<'py>(
     model: &Model,
     addresses: &Whole<'py>,
     xs: &Whole<'py>,
+    out: &Out<'_, 'py>,
 ) -> PyResult<Answers<'py>> {
     match xs {
         Whole::One(_) => Err(errors::input("x is one number and the address an array; give as many")),
-        Whole::Wide(array) => at_addresses(py, model, addresses, (array.as_slice()?, array.shape())),
-        Whole::Narrow(array) => at_addresses(py, model, addresses, (array.as_slice()?, array.shape())),
-        Whole::Made(values, shape) => at_addresses(py, model, addresses, (values, shape)),
+        Whole::Wide(array) => at_addresses(py, model, addresses, (array.as_slice()?, array.shape()), out),
+        Whole::Narrow(array) => at_addresses(py, model, addresses, (array.as_slice()?, array.shape()), out),
+        Whole::Made(values, shape) => at_addresses(py, model, addresses, (values, shape), out),
     }
 }
 
@@ -30,12 +29,13 @@ fn at_addresses<'py, X: model::XBits + Sync>(
     model: &Model,
     addresses: &Whole<'py>,
     xs: (&[X], &[usize]),
+    out: &Out<'_, 'py>,
 ) -> PyResult<Answers<'py>> {
     match addresses {
-        Whole::One(address) => answer(py, model, Addresses::One(*address), xs),
-        Whole::Wide(array) => answer(py, model, Addresses::Each(array.as_slice()?), xs),
-        Whole::Narrow(array) => answer(py, model, Addresses::Each(array.as_slice()?), xs),
-        Whole::Made(values, _) => answer(py, model, Addresses::Each(values), xs),
+        Whole::One(address) => answer(py, model, Addresses::One(*address), xs, out),
+        Whole::Wide(array) => answer(py, model, Addresses::Each(array.as_slice()?), xs, out),
+        Whole::Narrow(array) => answer(py, model, Addresses::Each(array.as_slice()?), xs, out),
+        Whole::Made(values, _) => answer(py, model, Addresses::Each(values), xs, out),
     }
 }
 
@@ -44,11 +44,12 @@ fn answer<'py, A: Copy + Send + Sync + TryInto<u32>, X: model::XBits + Sync>(
     model: &Model,
     addresses: Addresses<'_, A>,
     (xs, shape): (&[X], &[usize]),
+    out: &Out<'_, 'py>,
 ) -> PyResult<Answers<'py>> {
-    let intensities = PyArrayDyn::<i64>::zeros(py, shape, false);
-    let status = PyArrayDyn::<u8>::zeros(py, shape, false);
+    let (intensities, status) = out.answers(py, shape)?;
     {
-        let (mut intensities, mut status) = (intensities.try_readwrite()?, status.try_readwrite()?);
+        let mut intensities = intensities.try_readwrite().map_err(errors::in_use)?;
+        let mut status = status.try_readwrite().map_err(errors::in_use)?;
         let (intensities, status) = (intensities.as_slice_mut()?, status.as_slice_mut()?);
         py.detach(|| model.evaluate_all(addresses, xs, intensities, status)).map_err(errors::refused)?;
     }

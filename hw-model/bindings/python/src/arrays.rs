@@ -91,12 +91,12 @@ impl<'py> Reals<'py> {
 /// The array itself, where it has this type and lies in one piece.
 pub(crate) fn in_place<'py, T: Element>(given: &Bound<'py, PyAny>) -> PyResult<Option<PyReadonlyArrayDyn<'py, T>>> {
     match given.cast::<PyArrayDyn<T>>() {
-        Ok(array) if array.is_c_contiguous() => Ok(Some(array.try_readonly()?)),
+        Ok(array) if array.is_c_contiguous() => Ok(Some(array.try_readonly().map_err(errors::in_use)?)),
         _ => Ok(None),
     }
 }
 
-fn numpy(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
+pub(crate) fn numpy(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
     py.import(intern!(py, "numpy"))
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use model::{Code, Error};
+use numpy::BorrowError;
 use pyo3::PyErr;
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
@@ -26,6 +27,11 @@ pub(crate) fn refused(error: Error) -> PyErr {
 /// The exception of an argument that cannot be used.
 pub(crate) fn input(error: impl Display) -> PyErr {
     InputError::new_err(error.to_string())
+}
+
+/// The exception of an array that two calls want at the same time, one of them to write it.
+pub(crate) fn in_use(_: BorrowError) -> PyErr {
+    InputError::new_err("another call is writing or reading an array of this one; give each thread an `out` of its own")
 }
 
 /// The exception of files.

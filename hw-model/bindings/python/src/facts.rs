@@ -143,15 +143,27 @@ impl Probe {
 }
 
 /// What a register holds of a request.
-#[pyclass(frozen, get_all, module = "blysk")]
+#[pyclass(frozen, get_all, eq, module = "blysk")]
 pub(crate) struct Register {
     pub(crate) probe: Py<Probe>,
     pub(crate) bits: i64,
-    pub(crate) value: f64,
+}
+
+/// The same register of one model, and the same bits.
+impl PartialEq for Register {
+    fn eq(&self, other: &Self) -> bool {
+        self.probe.is(&other.probe) && self.bits == other.bits
+    }
 }
 
 #[pymethods]
 impl Register {
+    /// The bits as a real number.
+    #[getter]
+    fn value(&self) -> f64 {
+        self.probe.get().format.get().value(self.bits)
+    }
+
     #[getter]
     fn rank(&self) -> usize {
         self.probe.get().rank
@@ -179,7 +191,7 @@ impl Register {
     }
 
     fn __repr__(&self) -> String {
-        format!("Register({} = {} ({}))", self.probe.get().name, self.bits, self.value)
+        format!("Register({} = {} ({}))", self.probe.get().name, self.bits, self.value())
     }
 }
 

@@ -13,6 +13,7 @@ mod errors;
 mod facts;
 mod files;
 mod model;
+mod out;
 mod pipeline;
 mod registers;
 mod report;
@@ -35,6 +36,8 @@ mod _native {
     use super::model::Model;
     #[pymodule_export]
     use super::pipeline::{Outputs, Pipeline, Rank};
+    #[pymodule_export]
+    use super::registers::Registers;
     #[pymodule_export]
     use super::report::report;
 

@@ -1,7 +1,7 @@
 //! The class `Model`.
 
 use std::path::PathBuf;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use hw_model::handshake::ReadySlice;
 use model::Model as Golden;
@@ -15,7 +15,8 @@ use crate::arrays::{self, Reals, Whole, broadcast};
 use crate::bound::{self, Claim};
 use crate::errors;
 use crate::facts::{Format, Port, Probe};
-use crate::registers::Registers;
+use crate::out::Out;
+use crate::registers::{Known, Registers};
 use crate::tables;
 
 type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
@@ -28,20 +29,20 @@ type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 #[pyclass(frozen, module = "blysk")]
 pub(crate) struct Model {
     golden: Golden,
-    registers: Registers,
+    registers: Arc<Known>,
     bound: OnceLock<Claim>,
 }
 
 impl Model {
     fn new(py: Python<'_>, golden: Golden) -> PyResult<Self> {
-        Ok(Self { registers: Registers::of(py, &golden)?, golden, bound: OnceLock::new() })
+        Ok(Self { registers: Arc::new(Known::of(py, &golden)?), golden, bound: OnceLock::new() })
     }
 
     pub(crate) const fn golden(&self) -> &Golden {
         &self.golden
     }
 
-    pub(crate) const fn known(&self) -> &Registers {
+    pub(crate) const fn known(&self) -> &Arc<Known> {
         &self.registers
     }
 
@@ -127,7 +128,13 @@ impl Model {
     /// The address, or the exponent n, is one for all or one for each x; x is given as bits or as a real number. An
     /// address without a ROM word gives 0 and a flag. Raises `InputError` where the input format does not hold an x,
     /// and `ExponentError` where the ROM has no word for n.
-    #[pyo3(signature = (address=None, x_bits=None, *, n=None, x=None))]
+    ///
+    /// `out` is a tuple of two arrays that take the answers and are returned, int64 for the intensity and uint8 for the
+    /// status: calls that share them need no new memory, which can take as long as the answers. They are C-contiguous,
+    /// have the shape of the answers, and overlap neither each other nor what is read. Arrays that cannot be used raise
+    /// `TypeError` or `InputError` before anything is written; after an x or an address that is refused, what they hold
+    /// means nothing.
+    #[pyo3(signature = (address=None, x_bits=None, *, n=None, x=None, out=None))]
     fn evaluate<'py>(
         &self,
         py: Python<'py>,
@@ -135,9 +142,15 @@ impl Model {
         x_bits: Given<'_, 'py>,
         n: Given<'_, 'py>,
         x: Given<'_, 'py>,
+        out: Given<'_, 'py>,
     ) -> PyResult<Bound<'py, PyTuple>> {
         let (mut addresses, mut xs) = (self.addresses(address, n)?, self.x_of(x_bits, x)?);
         if let (Whole::One(address), Whole::One(x)) = (&addresses, &xs) {
+            if out.is_some() {
+                return Err(PyTypeError::new_err(
+                    "out takes the answers to arrays; one request is answered by numbers",
+                ));
+            }
             let answer = self.golden.evaluate(one(*address)?, *x).map_err(errors::refused)?;
             return (answer.intensity, answer.status.bits()).into_pyobject(py);
         }
@@ -150,22 +163,22 @@ impl Model {
             addresses = self.addresses(pick(address, &first), pick(n, &first))?;
             xs = self.x_of(pick(x_bits, &second), pick(x, &second))?;
         }
-        answers::evaluate(py, &self.golden, &addresses, &xs)?.into_pyobject(py)
+        let out = Out { given: out, inputs: [("address", address), ("x_bits", x_bits), ("n", n), ("x", x)] };
+        answers::evaluate(py, &self.golden, &addresses, &xs, &out)?.into_pyobject(py)
     }
 
-    /// What every register of every rank holds of one request, by its RTL name, in the order of the ranks.
+    /// What every register of every rank holds of one request: a mapping by RTL names, in the order of the ranks.
     #[pyo3(signature = (n=None, x=None, *, address=None, x_bits=None))]
-    fn registers<'py>(
+    fn registers(
         &self,
-        py: Python<'py>,
-        n: Given<'_, 'py>,
-        x: Given<'_, 'py>,
-        address: Given<'_, 'py>,
-        x_bits: Given<'_, 'py>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+        n: Given<'_, '_>,
+        x: Given<'_, '_>,
+        address: Given<'_, '_>,
+        x_bits: Given<'_, '_>,
+    ) -> PyResult<Registers> {
         let (address, x) = self.request(n, x, address, x_bits)?;
         let held = self.golden.registers(address, x).map_err(errors::refused)?;
-        self.registers.dict(py, &self.golden, held.into_iter().enumerate())
+        Ok(Registers::new(&self.registers, 0, held))
     }
 
     /// The ROM address of the exponent n. Raises `ExponentError`.

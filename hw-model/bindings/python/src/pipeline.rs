@@ -9,6 +9,7 @@ use crate::arrays::Whole;
 use crate::cycles::{Levels, cycles};
 use crate::errors;
 use crate::model::Model;
+use crate::registers::Registers;
 
 /// What the output ports show in a cycle.
 #[pyclass(frozen, get_all, eq, module = "blysk")]
@@ -45,7 +46,7 @@ pub(crate) struct Rank {
     /// False until data is loaded for the first time: hardware shows unknown values there.
     loaded: bool,
     /// Its registers by their RTL names.
-    registers: Py<PyDict>,
+    registers: Py<Registers>,
 }
 
 #[pymethods]
@@ -101,10 +102,12 @@ impl Pipeline {
     fn ranks(&mut self, py: Python<'_>) -> PyResult<Vec<Rank>> {
         let model = self.model.get();
         let (golden, ranks) = (model.golden(), self.clocked.ranks());
+        let probes = golden.probes();
+        let first = |index| probes.partition_point(|probe| probe.rank < index);
         let rank = |(index, rank): (usize, &model::Rank)| {
-            let of_rank = golden.probes().iter().enumerate().filter(|(_, probe)| probe.rank == index);
-            let held = of_rank.map(|(number, probe)| (number, probe.register.bits(&rank.signals)));
-            let registers = model.known().dict(py, golden, held)?.unbind();
+            let of_rank = &probes[first(index)..first(index + 1)];
+            let held = of_rank.iter().map(|probe| probe.register.bits(&rank.signals)).collect();
+            let registers = Py::new(py, Registers::new(model.known(), first(index), held))?;
             let name = golden.datapath().rank_name(index);
             Ok(Rank { name, valid: rank.valid, loaded: rank.loaded, registers })
         };

@@ -1,6 +1,7 @@
 """`blysk.Model`: numbers, arrays, registers, and what is refused."""
 
 import json
+from collections.abc import Mapping
 
 import blysk
 import numpy as np
@@ -78,6 +79,82 @@ def test_arrays_keep_their_shape_and_are_broadcast(compact):
     assert compact.highlight(np.array([1.0, 64.0])[:, None], [0.5, 0.99, 1.0]).shape == (2, 3)
 
 
+@pytest.fixture
+def out():
+    """Arrays for the answers to 500 requests, with what no answer is."""
+    return np.full(500, -1, np.int64), np.full(500, 255, np.uint8)
+
+
+def test_answers_go_where_they_are_asked_for(model, out):
+    addresses, xs = requests(model, 500)
+    for arguments in (
+        {"address": addresses, "x_bits": xs},
+        {"address": 63, "x_bits": xs.astype(np.uint32)},
+        {"address": addresses.tolist(), "x_bits": xs[::-1]},
+        {"n": 64, "x": np.linspace(0, 1, 500)},
+        {"address": 63, "x_bits": np.array(5)},
+        {"address": np.arange(5)[:, None], "x_bits": xs[:100]},
+    ):
+        wanted = model.evaluate(**arguments)
+        shape = wanted[0].shape
+        used = tuple(array[: wanted[0].size].reshape(shape) for array in out)
+        got = model.evaluate(**arguments, out=used)
+        assert got[0] is used[0] and got[1] is used[1]
+        assert np.array_equal(got[0], wanted[0]) and np.array_equal(got[1], wanted[1])
+
+
+def test_neighbours_in_memory_do_not_overlap(compact):
+    xs, intensity = np.split(np.arange(1000), 2)
+    before = intensity.copy()
+    compact.evaluate(63, xs, out=(intensity, np.empty(500, np.uint8)))
+    assert np.array_equal(intensity, compact.evaluate(63, np.arange(500))[0])
+    assert not np.array_equal(intensity, before) and np.array_equal(xs, np.arange(500))
+
+
+def test_arrays_that_cannot_take_answers_stay_as_they_are(compact, out):
+    xs = np.arange(500)
+    intensity, status = out
+    frozen = status.copy()
+    frozen.setflags(write=False)
+    apart = np.full(1000, 255, np.uint8)[::2]
+    bytes_of = np.full(4008, 255, np.uint8)
+    shared = bytes_of[8:].view(np.int64)
+    shifted = bytes_of[1:4001].view(np.int64)
+    for given, kind, text in (
+        (intensity, TypeError, "out is a tuple of two arrays"),
+        ((intensity,), TypeError, "out is a tuple of two arrays"),
+        (list(out), TypeError, "out is a tuple of two arrays"),
+        ((intensity, None), TypeError, "status is an array of uint8, not NoneType"),
+        ((intensity, status.astype(np.int64)), TypeError, "status is an array of uint8, not one of int64"),
+        ((intensity.astype(">i8"), status), TypeError, "intensity is an array of int64, not one of >i8"),
+        ((intensity, status[1:]), blysk.InputError, r"status has the shape \(499,\), and the answers have \(500,\)"),
+        ((intensity[None], status), blysk.InputError, r"the shape \(1, 500\), and the answers have \(500,\)"),
+        ((intensity, apart), blysk.InputError, "status has gaps .* give a C-contiguous array"),
+        ((shifted, status), blysk.InputError, "intensity has gaps"),
+        ((intensity, frozen), blysk.InputError, "status is read-only"),
+        ((shared, bytes_of[:500]), blysk.InputError, "intensity overlaps status; give an array that lies apart"),
+        ((xs, status), blysk.InputError, "intensity overlaps x_bits; give"),
+        ((intensity, xs.view(np.uint8)[:500]), blysk.InputError, "status overlaps x_bits"),
+        ((intensity, xs.view(np.uint8)[-500:]), blysk.InputError, "status overlaps x_bits"),
+    ):
+        with pytest.raises(kind, match=text):
+            compact.evaluate(63, xs, out=given)
+        assert (intensity == -1).all() and (status == 255).all() and (bytes_of == 255).all()
+        assert (frozen == 255).all() and (apart == 255).all() and np.array_equal(xs, np.arange(500))
+    whole, reals = np.zeros(500, np.int64), np.ones(500)
+    for name, arguments in (
+        ("address", {"address": whole, "x_bits": xs}),
+        ("n", {"n": reals, "x_bits": xs}),
+        ("x", {"address": 1, "x": reals}),
+    ):
+        with pytest.raises(blysk.InputError, match=f"intensity overlaps {name};"):
+            compact.evaluate(**arguments, out=(arguments[name].view(np.int64), status))
+    assert (whole == 0).all() and (reals == 1).all()
+    with pytest.raises(TypeError, match="one request is answered by numbers"):
+        compact.evaluate(63, 5, out=out)
+    assert (status == 255).all()
+
+
 def test_exponents_and_real_numbers(compact):
     xs = np.linspace(-0.1, 1.1, 777)
     highlights = compact.highlight(64, xs)
@@ -107,8 +184,25 @@ def test_every_register_has_its_rtl_name(model):
         assert register.value == register.bits * register.format.ulp == register.format.value(register.bits)
         assert register.format.bits(register.word) == register.bits
         assert 0 <= register.rank < model.latency
-    assert registers.keys() == model.registers(address=63, x_bits=8304722).keys()
+    assert registers.items() == model.registers(address=63, x_bits=8304722).items()
     assert model.formats["clamp.intensity"] == registers["clamp.intensity_q"].format
+
+
+def test_registers_are_a_mapping(compact):
+    registers = compact.registers(64, 0.99)
+    assert isinstance(registers, Mapping)
+    as_dict = dict(registers)
+    assert list(as_dict) == list(registers) == list(registers.keys())
+    assert as_dict.keys() == registers.keys() and list(as_dict.values()) == list(registers.values())
+    assert "x_q" in registers and registers.get("x_q") == registers["x_q"] == as_dict["x_q"]
+    assert registers["x_q"] != compact.registers(64, 0.98)["x_q"] and registers["x_q"] != registers["fetch_status"]
+    assert "x" not in registers and 5 not in registers
+    assert registers.get("x") is None and registers.get("x", 7) == 7
+    with pytest.raises(KeyError, match="^'x'$"):
+        registers["x"]
+    assert repr(registers).startswith("Registers({'x_q': Register(fetch.x = 8304722 (0.99")
+    first, *_, last = (rank.registers for rank in blysk.Pipeline(compact).ranks())
+    assert "x_q" in first and "x_q" not in last and list(last) == ["clamp.intensity_q", "clamp.status_q"]
 
 
 def test_rom_and_coefficients_are_those_of_the_rows(model):
@@ -170,6 +264,20 @@ def test_what_is_refused_says_what_would_be_right(compact, tmp_path):
     assert "not both" in said(TypeError, lambda: compact.evaluate(63, 5, n=64))
     assert "not both" in said(TypeError, lambda: compact.evaluate(63))
     assert "one request" in said(TypeError, lambda: compact.registers([1, 2], 0.5))
+
+
+@pytest.mark.parametrize("format", ["UQ1.23", "Q2.22"])
+def test_the_first_x_outside_the_format_is_named(compact, format):
+    model = blysk.Model.from_json(compact.configuration.replace("UQ1.23", format))
+    x = model.formats["x"]
+    xs = np.resize([x.min_bits, 0, x.max_bits], 3000)
+    wanted = model.evaluate(63, xs)
+    assert np.array_equal(wanted, model.evaluate(np.full(3000, 63), xs))
+    for refused in (x.min_bits - 1, x.max_bits + 1, -(1 << 63), (1 << 63) - 1):
+        outside = xs.copy()
+        outside[[1999, 2500]] = refused
+        with pytest.raises(blysk.InputError, match=f"^sample 1999: x: the bits {refused} do not fit {format},"):
+            model.evaluate(63, outside)
 
 
 def test_threads_share_a_model(compact):

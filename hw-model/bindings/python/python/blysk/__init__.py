@@ -16,6 +16,7 @@ from __future__ import annotations
 import enum
 import json
 import os
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from . import _native
@@ -34,12 +35,15 @@ from ._native import (
     Probe,
     Rank,
     Register,
+    Registers,
     Worst,
     report,
     stimulus,
 )
 
 __version__: str = _native.__version__
+
+Mapping.register(Registers)
 
 #: The flags of the status port: `Status(3)` is `Status.NO_WORD | Status.ABOVE_ONE`.
 Status = enum.IntFlag("Status", {name.upper(): bit for name, bit in _native.STATUS_FLAGS})  # type: ignore[misc]
@@ -122,6 +126,7 @@ __all__ = [
     "Probe",
     "Rank",
     "Register",
+    "Registers",
     "Status",
     "Verdict",
     "Worst",

@@ -1,11 +1,14 @@
 """Types of the native part of `blysk`. `help()` has its documentation, which stands in the sources of Rust."""
 
 import os
-from typing import Any, final, overload
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeVar, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self
+
+_T = TypeVar("_T")
 
 __version__: str
 RTL_SOURCES: list[str]
@@ -84,6 +87,16 @@ class Register:
     def format(self) -> Format: ...
 
 @final
+class Registers(Mapping[str, Register]):
+    def __getitem__(self, name: str, /) -> Register: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    @overload
+    def get(self, name: str, default: None = None, /) -> Register | None: ...
+    @overload
+    def get(self, name: str, default: _T, /) -> Register | _T: ...
+
+@final
 class Worst:
     @property
     def error(self) -> float: ...
@@ -123,6 +136,7 @@ class Model:
         *,
         n: ArrayLike | None = None,
         x: ArrayLike | None = None,
+        out: tuple[NDArray[np.int64], NDArray[np.uint8]] | None = None,
     ) -> tuple[NDArray[np.int64], NDArray[np.uint8]]: ...
     def registers(
         self,
@@ -131,7 +145,7 @@ class Model:
         *,
         address: int | None = None,
         x_bits: int | None = None,
-    ) -> dict[str, Register]: ...
+    ) -> Registers: ...
     def address(self, n: float) -> int: ...
     def x_bits(self, x: float) -> int: ...
     def rom(self) -> dict[str, NDArray[Any]]: ...
@@ -183,7 +197,7 @@ class Rank:
     @property
     def loaded(self) -> bool: ...
     @property
-    def registers(self) -> dict[str, Register]: ...
+    def registers(self) -> Registers: ...
 
 @final
 class Pipeline:

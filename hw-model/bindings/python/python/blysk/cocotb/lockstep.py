@@ -36,17 +36,17 @@ class Lockstep:
     def cycle(self, sample: Sample) -> None:
         """Listens to a monitor. Raises `Mismatch`."""
         reset, known = sample.rst != 0, sample.in_valid == 1 and sample.address is not None and sample.x is not None
+        x = self._x.bits(sample.x) if known and sample.x is not None else 0
+        inputs = (known, sample.address or 0, x, sample.out_ready == 1, reset)
+        # Before the registers are compared: an asynchronous reset clears flags without an edge.
+        outputs = self._pipeline.outputs(*inputs)
         if self._was_reset:
             self._compare(sample)
-        x = self._x.bits(sample.x) if known and sample.x is not None else 0
-        outputs = self._pipeline.tick(
-            in_valid=known, address=sample.address or 0, x=x, out_ready=sample.out_ready == 1, reset=reset
-        )
-        if self._was_reset:
             for port in ("in_ready", "out_valid"):
                 got, wanted = getattr(sample, port), int(getattr(outputs, port))
                 if got != wanted:
                     raise Mismatch(f"cycle {sample.cycle}: {port}_o is {shown(got)}, and {wanted} in the model")
+        self._pipeline.tick(*inputs)
         self._was_reset |= reset
         self._follow(sample)
 
