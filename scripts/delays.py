@@ -5,7 +5,7 @@ Each configuration is synthesised, placed and routed as `make synth` does, one s
 gets its value; `blysk clock` says what parts lie before it; the delays are those with which the second comes nearest to
 the first. Short paths count less, as the longest one is the clock.
 
-    scripts/delays.py                 every configuration of CONFIGURATIONS, and the tables written
+    scripts/delays.py                 every configuration of `make synth`, and the tables written
     scripts/delays.py --show          the tables as they are: estimates beside placed clocks, into docs/SYNTHESIS.md
     scripts/delays.py --check         whether those there are up to date, and within 15 % of the placed ones
 """
@@ -31,11 +31,6 @@ NAMES = ["register", "rom", "lut", "add", "carry", "multiply", "enable"]
 TO_REGISTER = {"ECP5 25F": ["multiply_to_register"]}
 # From the memory to the register that it has itself there is nothing that a placement could change.
 FIXED = {"ECP5 25F": {"rom_to_register": 0.0}}
-EXAMPLES = ["compact_12_bit", "compact_deep", "precise_deep", "paper_deep", "compact_12_bit_deep"]
-CONFIGURATIONS = {
-    **{name: ["--preset", name] for name in ["compact", "precise", "paper", "schlick", "blooming"]},
-    **{name: ["--config", f"docs/examples/{name}.json"] for name in EXAMPLES},
-}
 MARKERS = "<!-- estimates: made by `scripts/delays.py --show` -->", "<!-- end of estimates -->"
 # An estimate that is farther off is none.
 MOST = 0.15
@@ -209,10 +204,10 @@ def fitted(blysk, device, reuse):
     """The table of a device."""
     names, rest = NAMES + TO_REGISTER.get(device, []), FIXED.get(device, {}) | {"multiplier_bits": BITS[device]}
     equations, clocks = [], []
-    for name, option in CONFIGURATIONS.items():
+    for name, option in synth.configurations(blysk).items():
         known = synth.WORK / name / device.replace(" ", "_")
-        place = known if reuse and (known / "placed.sdf").exists() else placed(blysk, name, option, device)
-        if not place:
+        place = known if reuse else placed(blysk, name, option, device)
+        if not place or not (place / "placed.sdf").exists():
             continue
         latest = arrivals(place)
         longest = max(latest.values())

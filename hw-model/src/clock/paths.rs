@@ -93,13 +93,15 @@ fn head(datapath: &Datapath, pipelining: &Pipelining, trail: &mut Trail<'_>) {
         _ => 0.0,
     };
     let cut = pipelining.front_end > 0;
-    // Beside the comparison stands the subtraction where a rank follows, and behind it where none does.
-    trail.part("comparisons of x", (delays.adder(x) + delays.lut).max(if cut { subtraction } else { 0.0 }));
+    // The subtraction stands beside the comparisons, where what x is taken from does not wait for them: with one
+    // segment it is 1, and before a rank there is one subtraction for each segment.
+    let beside = cut || segments == 1;
+    trail.part("comparisons of x", (delays.adder(x) + delays.lut).max(if beside { subtraction } else { 0.0 }));
     trail.register(cut);
     let choice = f64::from(segments.next_power_of_two().trailing_zeros()) * delays.lut;
     trail.part("choice of the segment", choice);
-    if !cut {
-        trail.part("1 − x", subtraction);
+    if !beside {
+        trail.part("subtraction of x", subtraction);
     }
     let (shift, rounding) = shift(datapath);
     trail.part("shift", f64::from(shift) * delays.lut);
