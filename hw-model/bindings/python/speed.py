@@ -56,16 +56,22 @@ def measures(model):
     valid, ready = np.ones(SAMPLES, bool), xs & 7 != 0
     tick = blysk.Pipeline(model).tick
 
+    def run():
+        return blysk.Pipeline(model).run(valid, 63, xs, ready)
+
+    def into(address):
+        return lambda: model.evaluate(address, xs, out=out)
+
     def read_all(x):
         return [register.bits for register in model.registers(address=63, x_bits=x).values()]
 
     return [
         ("array, one address", a_sample(lambda: model.evaluate(63, xs)), "block", "samples"),
-        ("array, one address, `out=`", a_sample(lambda: model.evaluate(63, xs, out=out)), "block", "samples"),
+        ("array, one address, `out=`", a_sample(into(63)), "block", "samples"),
         ("array, an address for each", a_sample(lambda: model.evaluate(addresses, xs)), "each", "samples"),
-        ("array, an address for each, `out=`", a_sample(lambda: model.evaluate(addresses, xs, out=out)), "each", "samples"),
+        ("array, an address for each, `out=`", a_sample(into(addresses)), "each", "samples"),
         ("`highlight`, real numbers", a_sample(lambda: model.highlight(64, reals)), None, "samples"),
-        ("`run`, cycles in arrays", a_sample(lambda: blysk.Pipeline(model).run(valid, 63, xs, ready)), "tick", "cycles"),
+        ("`run`, cycles in arrays", a_sample(run), "tick", "cycles"),
         ("`evaluate`, a call", a_call(lambda x: model.evaluate(63, x)), "scalar", None),
         ("`registers`, a call", a_call(lambda x: model.registers(address=63, x_bits=x)), "registers", None),
         ("`registers`, and every one read", a_call(read_all), "registers", None),

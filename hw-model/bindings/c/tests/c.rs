@@ -17,7 +17,8 @@ enum Link {
     Shared,
 }
 
-/// Compiles a source of the package to a program.
+/// Compiles a source of the package to a program, named after the flags too: tests run side by side, and one must not
+/// write a program that another one runs.
 fn compile(source: &str, link: &Link, flags: &[&str]) -> PathBuf {
     let cpp = source.ends_with(".cpp");
     let stem = source.replace(['/', '.'], "_");
@@ -25,8 +26,8 @@ fn compile(source: &str, link: &Link, flags: &[&str]) -> PathBuf {
         Link::Static => "static",
         Link::Shared => "shared",
     };
-    let sanitized = if flags.contains(&SANITIZE[0]) { "_sanitized" } else { "" };
-    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{stem}_{kind}{sanitized}"));
+    let flagged: String = flags.iter().flat_map(|flag| flag.chars()).filter(char::is_ascii_alphanumeric).collect();
+    let program = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{stem}_{kind}_{flagged}"));
     let mut compiler = Command::new(if cpp { "c++" } else { "cc" });
     compiler.args(if cpp { &CPP[..] } else { &C[..] }).arg("-I").arg(package().join("include"));
     compiler.arg(package().join(source)).arg("-o").arg(&program);

@@ -1,7 +1,7 @@
 //! How fast the model answers when Rust asks: the measure for bindings (`hw-model/bindings/python/speed.py`).
 //!
-//! Takes the name of a preset. Measures what each line of standard input names, once, and prints how many nanoseconds of
-//! the processor a sample or a call took: so whoever compares lets both sides take turns.
+//! Takes the name of a preset. Measures what each line of standard input names, once, and prints how many nanoseconds
+//! of the processor a sample or a call took: so whoever compares lets both sides take turns.
 
 use std::error::Error;
 use std::hint::black_box;

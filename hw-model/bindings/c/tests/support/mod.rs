@@ -5,6 +5,7 @@ pub mod rtl;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::OnceLock;
 
 // The library is built with the tests, and lies beside them.
 use blysk as _;
@@ -55,11 +56,14 @@ pub fn fails(command: &mut Command) -> String {
     said
 }
 
-/// The shared library under the name that the loader looks for.
-pub fn shared_directory() -> PathBuf {
-    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shared");
-    std::fs::create_dir_all(&directory).expect("a directory");
-    let name = directory.join(format!("libblysk.so.{}", blysk::ABI_VERSION));
-    std::fs::copy(libraries().join("libblysk.so"), name).expect("the library is copied");
-    directory
+/// The shared library under the name that the loader looks for. It is copied once: other tests may be running with it.
+pub fn shared_directory() -> &'static Path {
+    static DIRECTORY: OnceLock<PathBuf> = OnceLock::new();
+    DIRECTORY.get_or_init(|| {
+        let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shared");
+        std::fs::create_dir_all(&directory).expect("a directory");
+        let name = directory.join(format!("libblysk.so.{}", blysk::ABI_VERSION));
+        std::fs::copy(libraries().join("libblysk.so"), name).expect("the library is copied");
+        directory
+    })
 }
