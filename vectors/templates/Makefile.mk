@@ -48,7 +48,7 @@ verilator: $(BUILD)/verilated/blysk_tb
 
 control: $(BUILD)/blysk.vvp
 	@$(VVP) -n $(BUILD)/blysk.vvp +expected=negative_control.mem | tee $(BUILD)/log
-	@grep -q '^FAIL vector [[ sources.control ]]: .*\.intensity is ' $(BUILD)/log && ! grep -q '^PASS' $(BUILD)/log
+	@grep -q '^FAIL vector [[ sources.control ]]: .*[[ sources.control_shows() ]] is ' $(BUILD)/log && ! grep -q '^PASS' $(BUILD)/log
 
 # What a build is made of, by contents: DUT may name another file, or another tool be asked for, and a
 # file's time need not show it.
