@@ -21,6 +21,7 @@ use blysk_tests::rtl::{Failure, failed};
 use blysk_tests::rtl::{axis, fusesoc, in_source, netlist_parts, readers, rom_image, specialised, two_in_one, waves};
 use hw_model::config::Config;
 use hw_model::design::Design;
+use hw_model::handshake::Handshake;
 use hw_model::presets;
 use rayon::prelude::*;
 use sim::agreement::compare;
@@ -451,8 +452,13 @@ fn registers(emitted: &Emitted<'_>, name: &str, simulator: &Simulator, cycles: u
             simulator.name, agreement.cycles
         ));
     }
+    // Without a handshake nothing waits.
+    let waits = emitted.design.datapath().control().handshake != Handshake::None;
+    if !waits && agreement.stalls > 0 {
+        return failed(format!("{name}: {} cycles with a stall, and no handshake", agreement.stalls));
+    }
     for (what, count) in [
-        ("stall", agreement.stalls),
+        ("stall", if waits { agreement.stalls } else { cycles }),
         ("bubble", agreement.bubbles),
         ("reset", agreement.resets),
         ("result", agreement.results),
