@@ -197,8 +197,8 @@ module blysk_front_end (
           assign choice = at_choice;
         end else begin : chosen
           assign choice = beyond_o[k] ? S_WIDTH'(at_choice) : segment[k-1].distance.choice;
-          logic unused;
-          assign unused = &{1'b0, at_choice};
+          logic at_choice_unused;
+          assign at_choice_unused = &{1'b0, at_choice};
         end
       end
     end
