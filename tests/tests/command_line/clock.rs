@@ -33,6 +33,39 @@ fn parts_add_up_to_the_longest_path() {
     assert!(table.contains(&format!("about {:.1} MHz", 1e3 / most)), "{table}");
 }
 
+/// A rank right behind a block stands in the block, where the table says that blocks have registers.
+#[test]
+fn registers_of_blocks_take_what_the_table_says() {
+    let bench = bench!();
+    let ranks = json!({"rom": true, "operands": true, "product": 1, "sum": true});
+    bench.write("small.json", &with("pipelining", ranks));
+    bench.write("without.json", DELAYS);
+    let mut table: Value = serde_json::from_str(DELAYS).unwrap();
+    table["rom_to_register"] = json!(0.0);
+    table["multiply_to_register"] = json!(0.5);
+    bench.write("with.json", table.to_string());
+    let ns = |config: &str, delays: &str, part: &str| -> Option<f64> {
+        let rows = csv_rows(&bench.good(&format!("clock --config {config} --device {delays} --format csv")));
+        rows.iter().find(|row| row["through"] == part).map(|row| number(row, "ns"))
+    };
+    assert_eq!(ns("small.json", "without.json", "multiplier of stage 2"), Some(2.0));
+    assert_eq!(ns("small.json", "with.json", "multiplier of stage 2"), Some(1.5));
+    assert_eq!(ns("small.json", "without.json", "the ROM's memory"), Some(2.0));
+    assert_eq!(ns("small.json", "with.json", "the ROM's memory"), None, "no path outside of the block");
+    // Where no rank follows, the blocks are as they were; and so is a product of pieces that are added first.
+    bench.write("shallow.json", SMALL);
+    let stage = "multiplier of stage 2, sum of stage 2, rounding of stage 2";
+    assert_eq!(ns("shallow.json", "with.json", stage), ns("shallow.json", "without.json", stage));
+    table["multiplier_bits"] = json!(8);
+    bench.write("pieces.json", table.to_string());
+    let pieces = "multiplier of stage 2, sum of the pieces of stage 2";
+    assert!(ns("small.json", "pieces.json", pieces).is_some_and(|ns| ns >= 3.0));
+    table["multiply_to_register"] = json!(-1.0);
+    bench.write("below.json", table.to_string());
+    let run = bench.run("clock --config small.json --device below.json");
+    assert!(run.status == 2 && run.stderr.contains("\"multiply_to_register\" is a delay"), "{}", run.stderr);
+}
+
 /// With fewer ranks, or more quotient bits, no configuration reaches the clock.
 #[test]
 fn the_fewest_ranks_are_those_that_no_others_undercut() {
@@ -128,7 +161,7 @@ fn what_is_no_clock_is_refused() {
     assert!(run.status == 2 && run.stderr.contains("leave \"pipelining\" out, or the clock"), "{}", run.stderr);
 }
 
-/// The design that is found has the ranks. It may be another than without a clock: a lower degree takes fewer of them.
+/// The design that is found has the ranks, and the error that was asked for at every x. It may be another than without a clock: a lower degree takes fewer of them.
 #[test]
 fn a_search_keeps_the_clock() {
     let bench = bench!();
@@ -140,6 +173,7 @@ fn a_search_keeps_the_clock() {
     assert_eq!(fast["clock"]["mhz"], 240.0);
     let rows = csv_rows(&bench.good("clock --config fast.json --device delays.json --format csv"));
     assert!(rows.iter().all(|row| number(row, "MHz") >= 240.0), "{rows:?}");
+    let _held = bench.good("report --config fast.json --exhaustive --range all --bound 0.03");
     let run = bench.run(&format!("{search} --clock-mhz 900 --device delays.json"));
     assert!(run.status == 2 && run.stderr.contains("cannot be reached"), "{}", run.stderr);
     let run = bench.run(&format!("{search} --clock-mhz 100"));
