@@ -111,6 +111,13 @@ impl Registers {
         self.dict(py)?.call_method0(intern!(py, "items"))
     }
 
+    /// What each register holds as bits, by its name: the quickest way to read all of them.
+    fn bits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let dict = PyDict::new(py);
+        self.names().iter().zip(&self.bits).try_for_each(|(name, bits)| dict.set_item(name, bits))?;
+        Ok(dict)
+    }
+
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         Ok(format!("Registers({})", self.dict(py)?))
     }

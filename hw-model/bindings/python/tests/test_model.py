@@ -197,6 +197,7 @@ def test_registers_are_a_mapping(compact):
     assert "x_q" in registers and registers.get("x_q") == registers["x_q"] == as_dict["x_q"]
     assert registers["x_q"] != compact.registers(64, 0.98)["x_q"] and registers["x_q"] != registers["fetch_status"]
     assert "x" not in registers and 5 not in registers
+    assert registers.bits() == {path: register.bits for path, register in registers.items()}
     assert registers.get("x") is None and registers.get("x", 7) == 7
     with pytest.raises(KeyError, match="^'x'$"):
         registers["x"]
