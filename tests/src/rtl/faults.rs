@@ -86,7 +86,7 @@ pub const FAULTS: &[Fault] = &[
     fault!("the product loads while it stalls", "small_deep", "blysk_stage.sv",
         "if (load_i[OPERAND_RANKS+PRODUCT_RANKS-1]) product_q <= product_d;" => "product_q <= product_d;", "product"),
     fault!("the sum loses a bit that rounding needs", "small_deep", "blysk_stage.sv",
-        "localparam int KEPT = T_WIDTH + DROP + 1;" => "localparam int KEPT = T_WIDTH + DROP - 1;", "t1 is"),
+        "localparam int KEPT = T_WIDTH + DROP + 1;" => "localparam int KEPT = T_WIDTH + DROP - 1;", "_sum.sum"),
     fault!("a copied operand loads while it stalls", "small_deep", "blysk_stage.sv",
         ".load_i(load_i[0]), .value_i(variable_i)" => ".load_i(1'b1), .value_i(variable_i)", "operands.v"),
     fault!("the word loads a rank before the comparisons", "small_lines_deep", "blysk.sv",
