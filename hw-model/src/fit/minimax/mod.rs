@@ -29,7 +29,7 @@ use exchange::Digits;
 use terms::power_form;
 
 pub use exchange::Alternation;
-pub use segments::{Fitted, Range, segments};
+pub use segments::{Fitted, Range, between, segments};
 pub(crate) use terms::binomial;
 
 use super::assemble;

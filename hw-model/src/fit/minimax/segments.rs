@@ -63,6 +63,20 @@ pub fn segments(exponent: f64, degree: usize, count: usize, range: Range) -> Res
     Ok(fitted(&Search::new(exponent, degree, count.clamp(1, 16), range).equalised()))
 }
 
+/// The best segment of a degree (1 to 4) for `start` ≤ s ≤ `end`, with f(1) = 1 where it starts at 0; in powers of x
+/// only then. None where x^n is such a polynomial itself, and for a range that is empty or so long that x^n is all but
+/// a spike in it.
+#[must_use]
+pub fn between(exponent: f64, degree: usize, (start, end): (f64, f64)) -> Option<Fitted> {
+    let degree = degree.clamp(1, MAX_DEGREE);
+    let search = Search { digits: Digits::Full, ..Search::new(exponent, degree, 1, Range::Balanced) };
+    if !(start < end && end < search.far) || monomial(exponent, degree).is_some() {
+        return None;
+    }
+    let best = search.fit(start, end, None);
+    best.error.is_finite().then(|| fitted(&[best]))
+}
+
 /// Where a rising function, infinite from somewhere on, is 0; the end it is nearest to where it is not.
 fn rising_root(mut f: impl FnMut(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     const CLOSE: f64 = 1e-10;

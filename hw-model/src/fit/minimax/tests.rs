@@ -95,6 +95,31 @@ proptest! {
     }
 }
 
+/// Between the ends that a search has found, the best is what it found there.
+#[test]
+fn between_given_ends_the_same_segments_are_the_best() {
+    for (n, degree, count) in [(5.0, 3, 2), (256.0, 3, 2), (40.5, 2, 3), (1e6, 4, 2)] {
+        let whole = segments(n, degree, count, Range::Balanced).unwrap();
+        let mut start = 0.0;
+        for (index, (&end, known)) in whole.ends.iter().zip(&whole.segments).enumerate() {
+            let found = between(n, degree, (start, end)).unwrap();
+            for s in [start, 0.5 * (start + end), end] {
+                let difference = found.segments[0].value_at_s(s) - known.value_at_s(s);
+                assert!(difference.abs() < 1e-12, "n = {n}, from {start}, at {s}: {difference:e}");
+            }
+            assert_eq!(found.segments[0].start, start);
+            assert!((found.error / whole.error - 1.0).abs() < 1e-6);
+            for (power, known) in found.power.iter().zip(whole.power).filter(|_| index == 0) {
+                assert!((power - known).abs() <= 1e-9 * known.abs(), "n = {n}: {power} {known}");
+            }
+            start = end;
+        }
+    }
+    assert_eq!(between(2.0, 3, (0.1, 0.5)), None, "x^2 is a cubic");
+    assert_eq!(between(5.0, 3, (0.5, 0.5)), None, "an empty range");
+    assert_eq!(between(1e6, 3, (0.0, 0.5)), None, "x^n is a spike");
+}
+
 /// For n → ∞ as e^−σ has it; a higher level, or more segments, never errs more.
 #[test]
 fn the_greatest_exponent_is_the_limit() {
