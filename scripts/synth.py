@@ -305,6 +305,7 @@ def main():
     parser.add_argument("--config", action="append", default=[], metavar="FILE",
                         help="synthesise this configuration instead, and leave the documents as they are")
     parser.add_argument("--device", choices=DEVICES, help="this one alone; the rows of the other stay as they are")
+    parser.add_argument("--changed", action="store_true", help="only rows that are not of the RTL as it is now")
     parser.add_argument("--check", action="store_true", help="only tell whether docs/SYNTHESIS.md is up to date")
     parser.add_argument("--same-since", metavar="COMMIT",
                         help="take the table over where no netlist has changed since that commit")
@@ -315,14 +316,16 @@ def main():
         return same_since(args.blysk, args.same_since)
     os.environ["PATH"] = f"{VENV}:{os.environ['PATH']}"
     rows, wrong = [], []
-    known = list(csv.DictReader(io.StringIO(COMMITTED.read_text())))
+    known = {(r["configuration"], r["device"]): r for r in csv.DictReader(io.StringIO(COMMITTED.read_text()))}
     files = [Path(file).resolve() for file in args.config]
     chosen = {json.loads(file.read_text())["name"]: ["--config", str(file)] for file in files}
     for name, option in (chosen or configurations(args.blysk)).items():
         rtl, sources = emit(args.blysk, name, option)
         for device in DEVICES:
-            if args.device not in (None, device):
-                rows += [] if chosen else [r for r in known if (r["configuration"], r["device"]) == (name, device)]
+            old = known.get((name, device), {})
+            as_it_was = args.changed and old.get("inputs") == inputs(rtl, sources, device)
+            if as_it_was or args.device not in (None, device):
+                rows += [old] if old and not chosen else []
                 continue
             r = row(name, device, rtl, sources)
             rows.append(r)
