@@ -57,6 +57,8 @@ short!(
     exponents,
     scene,
     obj,
+    mtl,
+    gltf,
     pareto,
     stimulus,
     answers,

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
 use hw_model::config::Config;
 use hw_model::design::Design;
@@ -21,11 +21,11 @@ use super::output;
 use super::scene::{Loaded, load};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
-use scenes::render::{Samples, ScenePipeline, Which, Zone, samples};
+use scenes::render::{RowFor, Samples, ScenePipeline, Which, Zone, samples};
 use scenes::scene::Scene;
 use scenes::specialise::{
-    self, Asked, AskedRow, Certificate, Demand, Display, Held, LeftOut, Proved, demands, is_guarded, left_out,
-    pixels_outside, points, reduce, rows,
+    self, Asked, AskedRow, Certificate, Demand, Display, Held, LeftOut, Proved, Served, demands, is_guarded, left_out,
+    pixels_outside, points, reduce, rows, serve, served_rows, with_words,
 };
 
 /// Leave out of a configuration what a scene does not use, and prove that nothing is missed.
@@ -58,6 +58,11 @@ pub(super) struct Args {
     /// refuse a certificate that allows more.
     #[arg(long, value_name = "CODES")]
     allow_codes: Option<u16>,
+    /// Let a row of the ROM serve exponents near its own, and take the fewest rows with which no highlight differs by
+    /// more than --allow-codes from that by a row of its exponent. Exponents that the configuration has no word for get
+    /// one to compare with, so that scenes of any materials can be specialised.
+    #[arg(long, requires = "allow_codes", conflicts_with = "check")]
+    nearest: bool,
     /// How many vectors the RTL's bundle has.
     #[arg(long, default_value_t = 4096)]
     count: u64,
@@ -100,9 +105,10 @@ impl Args {
     fn command(&self) -> String {
         let scene = self.scene.as_ref().and_then(|path| path.file_name()).unwrap_or_default();
         let codes = self.allow_codes.map_or_else(String::new, |codes| format!(" --allow-codes {codes}"));
+        let nearest = if self.nearest { " --nearest" } else { "" };
         let Self { count, seed, .. } = self;
         format!(
-            "blysk specialise {} {}{codes} --count {count} --seed {seed}",
+            "blysk specialise {} {}{codes}{nearest} --count {count} --seed {seed}",
             names::shell(scene),
             self.configuration.option()
         )
@@ -123,7 +129,14 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let inputs = [files, args.configuration.files()].concat();
     let begin = |out| output::set(out, COMMAND, &inputs, args.names());
     let set = args.out.as_deref().map(begin).transpose()?;
-    let mut made = Made::new(args, &scene, &source)?;
+    let demands = demands(&scene);
+    let source = if args.nearest {
+        let exponents = demands.iter().map(|demand| demand.exponent);
+        Design::new(with_words(source.config(), exponents)?).context("with a word for each exponent of the scene")?
+    } else {
+        source
+    };
+    let mut made = Made::new(args, &scene, &source, demands)?;
     if let Some(set) = set {
         made.write(args, &source, set)?;
     }
@@ -146,9 +159,8 @@ struct Made {
 }
 
 impl Made {
-    fn new(args: &Args, scene: &Scene, source: &Design) -> anyhow::Result<Self> {
-        let demands = demands(scene);
-        let rows = rows(source, &demands)?;
+    fn new(args: &Args, scene: &Scene, source: &Design, demands: Vec<Demand>) -> anyhow::Result<Self> {
+        let mut rows = rows(source, &demands)?;
         let points = points(source, &rows)?;
         let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
         let bar = Bar::counting(Some(rays), "pixels");
@@ -161,6 +173,11 @@ impl Made {
             );
         }
         let display = Display { bits: scene.image.display_bits, transfer: scene.image.transfer };
+        if let (true, Some(codes)) = (args.nearest, args.allow_codes) {
+            let bar = Bar::new(None);
+            rows = served_rows(source, &demands, &serve(source, &rows, display, codes, &bar))?;
+            bar.finish();
+        }
         // With fewer codes allowed to be told apart there is a pass for each width of the output, at most.
         let passes = match args.allow_codes {
             Some(_) => u64::from(source.config().output.fraction_bits()),
@@ -233,6 +250,10 @@ impl Made {
         writeln!(out)?;
         self.asked().print(out, Format::Table, 7)?;
         writeln!(out)?;
+        if args.nearest {
+            self.served(scene).print(out, Format::Table, 6)?;
+            writeln!(out)?;
+        }
         self.table().print(out, Format::Table, 6)?;
         writeln!(out)?;
         let proved = match self.certificate.proved {
@@ -264,7 +285,9 @@ impl Made {
 
     /// What software leaves out before the hardware.
     fn software(&self, scene: &Scene) -> anyhow::Result<String> {
-        let answers = ScenePipeline::new(&self.specialised, scene)?.answers(&self.pixels, Which::Needed);
+        let served: Vec<(f64, f64)> = self.rows.iter().map(|row| (row.demand.exponent, row.serving)).collect();
+        let pipeline = ScenePipeline::with_rows(&self.specialised, scene, RowFor::Served(&served))?;
+        let answers = pipeline.answers(&self.pixels, Which::Needed);
         let all = answers.parts.len() as u64;
         let away = answers.parts.iter().filter(|&&part| part == Zone::FacesAway).count() as u64;
         Ok(format!(
@@ -275,11 +298,29 @@ impl Made {
         ))
     }
 
+    /// Which row serves each material, and by how many display codes that differs from a row of its own.
+    fn served(&self, scene: &Scene) -> Rows {
+        let mut table = Rows::new(&["material", "n", "row", "codes"]);
+        for material in &scene.materials {
+            let n = material.exponent;
+            let place = self.rows.iter().position(|row| row.demand.exponent == n);
+            let served = place.and_then(|place| self.certificate.parts.get(place)?.served);
+            let own = place.map(|_| Served { row: n, codes: 0 });
+            let (row, codes) = match served.or(own) {
+                Some(Served { row, codes }) => (Cell::Exponent(row), Cell::Integer(codes.into())),
+                None => ("not seen in any light".into(), "-".into()),
+            };
+            table.push(vec![material.name.as_str().into(), Cell::Exponent(n), row, codes]);
+        }
+        table
+    }
+
     /// What the scene asks.
     fn asked(&self) -> Rows {
         let ulp = self.specialised.config().input.ulp();
-        let mut table = Rows::new(&["n", "least x", "greatest x", "cut", "below it", "address", "was", "bound"]);
-        for (index, (row, demand)) in self.rows.iter().zip(&self.demands).enumerate() {
+        let mut table = Rows::new(&["n", "least x", "greatest x", "cut", "below it", "address", "was"]);
+        let exponents = self.specialised.rom().exponents();
+        for (row, demand) in self.rows.iter().zip(&self.demands) {
             let below = if row.least >= row.cut { "nothing" } else { "asked" };
             table.push(vec![
                 Cell::Exponent(demand.exponent),
@@ -287,9 +328,8 @@ impl Made {
                 demand.greatest.into(),
                 (row.cut as f64 * ulp).into(),
                 below.into(),
-                Cell::Integer(index as i64),
+                Cell::Integer(exponents.position(row.serving).unwrap_or_default() as i64),
                 Cell::Integer(row.address.into()),
-                if demand.mesh { "a mesh: none" } else { "every place" }.into(),
             ]);
         }
         table

@@ -19,7 +19,7 @@ use hw_model::highlight::phong;
 use hw_model::quantise::real;
 use scenes::render::Codes;
 use scenes::scene::Image;
-use scenes::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused};
+use scenes::specialise::{self, Asked, Certificate as Specialised, Part, Proved, Refused, Served};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -190,14 +190,18 @@ fn specialised_is_so(certificate: &Specialised) {
         assert_eq!(&again, part, "every x says otherwise");
     }
     let numbers = |design: &Design| design.rom().exponents().len();
-    assert_eq!(numbers(&designs[1]), certificate.parts.len());
+    let mut rows: Vec<f64> = certificate.parts.iter().map(|part| part.served.map_or(part.n, |of| of.row)).collect();
+    rows.sort_by(f64::total_cmp);
+    rows.dedup();
+    assert_eq!(numbers(&designs[1]), rows.len());
 }
 
 /// The same part as every x says it, one by one.
 fn part_again(designs: &[Design; 2], part: &Part, codes: &Codes, proved: Proved) -> Part {
-    let addresses = designs
-        .each_ref()
-        .map(|design| design.rom().exponents().position(part.n).expect("a word for each exponent") as u32);
+    let row = part.served.map_or(part.n, |served| served.row);
+    let address = |design: &Design, n: f64| design.rom().exponents().position(n).expect("a word for it") as u32;
+    let addresses = [address(&designs[0], part.n), address(&designs[1], row)];
+    let mut codes_apart = 0;
     let answer = |which: usize, x: i64| {
         let signals = designs[which].datapath().evaluate(addresses[which], x);
         (real(signals.intensity, designs[which].config().output), signals.status)
@@ -209,15 +213,19 @@ fn part_again(designs: &[Design; 2], part: &Part, codes: &Codes, proved: Proved)
         again.differing += u64::from(wanted != got || flags != same);
         again.greatest = again.greatest.max((wanted - got).abs());
         let apart = codes.of(wanted).abs_diff(codes.of(got));
+        codes_apart = codes_apart.max(apart);
         match proved {
             Proved::BitIdentical => assert_eq!((wanted, flags), (got, same), "x = {x}"),
             Proved::Codes { allowed, .. } => assert!(apart <= allowed, "x = {x}: {apart} codes"),
         }
     }
-    for x in 0..part.first {
+    // A row that serves several exponents refuses what lies below the least x of all.
+    for x in 0..part.refused as i64 {
         assert_eq!(answer(1, x), (0.0, Status::default().with(Status::OUT_OF_DOMAIN, true)));
         again.refused += 1;
     }
+    assert!(part.served.is_some() || part.refused == part.first as u64);
+    again.served = part.served.map(|_| Served { row, codes: codes_apart });
     again
 }
 

@@ -11,6 +11,7 @@ mod archive;
 pub mod campaign;
 mod certificates;
 mod files;
+mod models;
 pub mod mutate;
 mod place;
 mod readers;
@@ -61,11 +62,13 @@ const fn target(name: &'static str, form: Form, run: fn(&[u8], &Place) -> Outcom
 }
 
 /// Every target, in the order of the tables.
-pub const TARGETS: [Target; 16] = [
+pub const TARGETS: [Target; 18] = [
     target("configuration", Form::Json, readers::configuration),
     target("exponents", Form::Lines, readers::exponents),
     target("scene", Form::Json, readers::scene),
     target("obj", Form::Lines, readers::obj),
+    target("mtl", Form::Lines, models::mtl),
+    target("gltf", Form::Json, models::gltf),
     target("pareto", Form::Lines, readers::pareto),
     target("stimulus", Form::Lines, files::stimulus),
     target("answers", Form::Lines, files::answers),

@@ -15,6 +15,7 @@ mod dut;
 mod evaluate;
 mod help;
 mod meshes;
+mod models;
 mod output;
 mod pareto;
 mod presets;

@@ -35,6 +35,14 @@ fn a_model_with_its_libraries_becomes_a_scene() {
     let remarks = column("remarks");
     assert!(remarks[0].is_empty() && remarks[1].contains("exponent of 0") && remarks[2].contains("no library"));
 
+    // A library that is not there is named with the line that names it, and so is what presets have no row for.
+    bench.write("models/a b.obj", MODEL.replace("own.mtl", "lost.mtl"));
+    let said =
+        bench.run_list(&["scene", "import", "models/a b.obj", "--mtl", "models/materials/own.mtl", "--out", "b.json"]);
+    for says in ["line 1: the library \"materials/lost.mtl\"", "1 of 3 exponents is no whole number", "(line 10)"] {
+        assert!(said.stdout.replace("\n", " ").contains(says), "{says}: {}", said.stdout);
+    }
+
     // The ROM has no word for 3.4: the nearest by ratio is that of 3.
     let refused = bench.run_list(&["render", "scenes/a.json", "--config", "small.json"]);
     assert_eq!(refused.status, 2);

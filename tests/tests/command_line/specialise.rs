@@ -156,6 +156,118 @@ fn the_same_command_writes_the_same_bytes() {
     assert!(held.contains("the same bits"), "{held}");
 }
 
+/// The scene of the close-up with its ball made of triangles: a patch of 6.8 degrees around the axis.
+fn close_up_of_a_mesh(bench: &Bench) {
+    let side = 17_u32;
+    let mut mesh = String::new();
+    for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
+        let [x, y] = [column, row].map(|step| 0.24 * (f64::from(step) / f64::from(side - 1) - 0.5));
+        let length = (x * x + y * y + 1.0).sqrt();
+        let [x, y, z] = [x, y, 1.0].map(|part| part / length);
+        mesh += &format!("v {} {} {}\nvn {x} {y} {z}\n", 20.0 * x, 20.0 * y, 20.0 * z);
+    }
+    for (row, column) in (1..side).flat_map(|row| (1..side).map(move |column| (row, column))) {
+        let corners = [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)];
+        let corners = corners.map(|(row, column)| row * side + column + 1).map(|index| format!("{index}//{index}"));
+        mesh += &format!("f {}\n", corners.join(" "));
+    }
+    bench.write("patch.obj", mesh);
+    let text = std::fs::read_to_string(scene("close_up")).unwrap();
+    let ball = r#"{"sphere": {"centre": [0, 0, 0], "radius": 20, "material": "lacquer"}}"#;
+    assert!(text.contains(ball), "{text}");
+    bench.write("patch.json", text.replace(ball, r#"{"mesh": {"file": "patch.obj", "material": "lacquer"}}"#));
+}
+
+/// Triangles are bounded as balls are: the tail goes, and the checker bounds them again.
+#[test]
+fn a_close_up_of_a_mesh_has_no_tail() {
+    let bench = bench!();
+    close_up_of_a_mesh(&bench);
+    let said = bench.good("specialise patch.json --preset paper --out small");
+    assert!(said.contains("proved bit-identical over "), "{said}");
+    assert_eq!(part(&bench, "small/left_out.csv", "divider ranks"), [9.0, 0.0]);
+    let held = bench.good("specialise patch.json --preset paper --check small/certificate.json");
+    assert!(held.contains("certificate.json holds: "), "{held}");
+    // A scene that sees more of the mesh asks for more.
+    bench.write("wide.json", bench.text("patch.json").replace("0.136", "0.2"));
+    let run = bench.run("specialise wide.json --check small/certificate.json");
+    assert!(run.status == 1 && run.stdout.contains("the scene asks x from"), "{run:#?}");
+}
+
+/// Eight materials as files of people have them, for most of which the configuration has no word.
+const EXPONENTS: [f64; 8] = [3.4, 10.0, 10.2, 10.25, 33.1, 33.3, 96.078431, 97.5];
+const FEW_ROWS: &str = r#"{"name": "few", "method": "minimax", "segments": 2, "cut": "balanced",
+    "exponents": "1..=16", "input": "UQ1.14", "output": "UQ1.12"}"#;
+
+fn balls(bench: &Bench) {
+    bench.write("few.json", FEW_ROWS);
+    let (mut materials, mut geometry) = (Vec::new(), Vec::new());
+    for (place, n) in EXPONENTS.into_iter().enumerate() {
+        materials
+            .push(format!(r#"{{"name": "m{place}", "exponent": {n}, "diffuse": [0, 0, 0], "specular": [1, 1, 1]}}"#));
+        geometry.push(format!(
+            r#"{{"sphere": {{"centre": [{}, 0, 0], "radius": 1, "material": "m{place}"}}}}"#,
+            2.5 * (place as f64 - 3.5)
+        ));
+    }
+    // A material that nothing is made of.
+    materials.push(r#"{"name": "spare", "exponent": 7, "diffuse": [0, 0, 0], "specular": [1, 1, 1]}"#.to_owned());
+    bench.write(
+        "balls.json",
+        format!(
+            r#"{{"name": "balls", "image": {{"width": 80, "height": 20}}, "camera": {{"position": [0, 0, 30],
+            "look_at": [0, 0, 0], "field_of_view_degrees": 10}}, "lights": [{{"directional":
+            {{"towards": [1, 2, 3], "colour": [1, 1, 1]}}}}], "materials": [{}], "geometry": [{}]}}"#,
+            materials.join(", "),
+            geometry.join(", ")
+        ),
+    );
+}
+
+#[test]
+fn near_exponents_share_rows_and_the_map_is_checked() {
+    let bench = bench!();
+    balls(&bench);
+    let refused = bench.run("specialise balls.json --config few.json");
+    assert!(refused.status == 2 && refused.stderr.contains("--nearest"), "{refused:#?}");
+    bench.refused("specialise balls.json --config few.json --nearest --out small", &["--allow-codes"]);
+    let said = bench.good("specialise balls.json --config few.json --nearest --allow-codes 1 --count 64 --out small");
+    assert!(said.contains("not seen in any light"), "{said}");
+    let small = design(&bench, "small/configuration.json");
+    let certificate: serde_json::Value = serde_json::from_str(&bench.text("small/certificate.json")).unwrap();
+    let parts = certificate["parts"].as_array().unwrap();
+    let served = |part: &serde_json::Value| {
+        let codes = part["served"]["codes"].as_u64().unwrap();
+        (part["n"].as_f64().unwrap(), part["served"]["row"].as_f64().unwrap(), codes)
+    };
+    let map: Vec<(f64, f64, u64)> = parts.iter().map(served).collect();
+    let asked: Vec<f64> = map.iter().map(|one| one.0).collect();
+    assert_eq!(asked, EXPONENTS);
+    assert!(map.iter().all(|one| one.2 <= 1), "{map:?}");
+    let mut rows: Vec<f64> = map.iter().map(|one| one.1).collect();
+    rows.dedup();
+    assert!(rows.len() < EXPONENTS.len(), "{map:?}");
+    assert_eq!(small.rom().exponents().as_slice(), rows);
+    // 3.4 has none near it.
+    assert_eq!(map[0].1, 3.4);
+
+    let check = |file: &str| {
+        bench.run_list(&["specialise", "balls.json", "--config", "few.json", "--allow-codes", "1", "--check", file])
+    };
+    let held = check("small/certificate.json");
+    assert!(held.status == 0 && held.stdout.contains("words for n = 3.4, 10.2"), "{held:#?}");
+    let text = bench.text("small/certificate.json");
+    for (from, to) in [("\"codes\": 1", "\"codes\": 0"), ("\"row\": 3.4", "\"row\": 10.2")] {
+        assert!(text.contains(from), "{text}");
+        bench.write("wrong.json", text.replacen(from, to, 1));
+        assert_eq!(check("wrong.json").status, 1, "{from}");
+    }
+    // More codes, fewer rows.
+    let said = bench.good("specialise balls.json --config few.json --nearest --allow-codes 40 --count 64 --out other");
+    let fewer = design(&bench, "other/configuration.json").rom().depth();
+    assert!(fewer < rows.len(), "{said}");
+}
+
 #[test]
 fn what_cannot_be_specialised_is_refused() {
     let bench = bench!();

@@ -78,7 +78,7 @@ impl Interval {
 
     /// The least interval that holds both.
     #[must_use]
-    pub(crate) fn hull(self, other: Self) -> Self {
+    pub fn hull(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 }

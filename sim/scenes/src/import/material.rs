@@ -4,6 +4,9 @@ use hw_model::exponents::MAX_EXPONENT;
 
 use crate::scene::MaterialDescription as Material;
 
+/// The greatest exponent that the presets have a row for.
+const MOST_OF_PRESETS: f64 = 256.0;
+
 /// What became of a material.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Treated {
@@ -29,9 +32,10 @@ pub(super) struct Draft {
 }
 
 impl Draft {
-    /// A grey without a highlight, for what no library tells of.
-    pub(super) fn unknown(name: &str) -> Self {
-        let remarks = vec!["no library tells of this material, so it is grey and has no highlight".into()];
+    /// A grey without a highlight, for what no library tells of; `line` is where the model names it.
+    pub(super) fn unknown(name: &str, line: Option<usize>) -> Self {
+        let place = line.map_or_else(String::new, |line| format!(" (line {line})"));
+        let remarks = vec![format!("no library tells of this material{place}, so it is grey and has no highlight")];
         let (dark, grey) = ([0.0; 3], [0.6; 3]);
         Self {
             name: name.into(),
@@ -89,6 +93,22 @@ impl Draft {
             self.remarks.push(why.into());
         }
     }
+}
+
+/// How many of the exponents the presets have no row for, and what to do about it; none where they have all.
+pub(super) fn without_rows(materials: &[Material]) -> Option<String> {
+    let missing = materials.iter().filter(|material| {
+        let n = material.exponent;
+        n.fract() != 0.0 || n > MOST_OF_PRESETS
+    });
+    let (count, all) = (missing.count(), materials.len());
+    let is = if count == 1 { "is no whole number" } else { "are no whole numbers" };
+    (count > 0).then(|| {
+        format!(
+            "{count} of {all} exponents {is} from 1 to {MOST_OF_PRESETS}, so that presets have no row: see --nearest of \
+             `blysk render` and `blysk specialise`"
+        )
+    })
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::scene::{Angle, Mesh, Normals, Statements, name_behind};
 
 use super::error::ImportError;
 use super::framing;
-use super::material::Draft;
+use super::material::{Draft, without_rows};
 use super::mtl::{self, Written};
 use super::wish::{Imported, Wish};
 
@@ -48,10 +48,11 @@ pub fn obj(
     for Library { name, text } in libraries {
         take(name, text)?;
     }
-    for name in named_libraries(text, read) {
-        match read(&name) {
-            Ok(text) => take(&name, &text)?,
-            Err(error) => remarks.push(format!("the library {name:?} cannot be read: {error}")),
+    let named = Named::of(text, read);
+    for (line, name) in &named.libraries {
+        match read(name) {
+            Ok(text) => take(name, &text)?,
+            Err(error) => remarks.push(format!("line {line}: the library {name:?} cannot be read: {error}")),
         }
     }
     let mut used = mesh.materials.clone();
@@ -61,32 +62,50 @@ pub fn obj(
         used.insert(0, names.find(free).unwrap_or_default());
         remarks.push(format!("faces without a `usemtl` are of the material {:?}", used.first().map_or("", |n| n)));
     }
-    let draft = |name: &String| known.get(name).map_or_else(|| Draft::unknown(name), |written| written.draft(name));
-    let (materials, treated) = used.iter().map(|name| draft(name).finish()).unzip();
+    let unknown = |name: &String| Draft::unknown(name, named.materials.get(name).copied());
+    let draft = |name: &String| known.get(name).map_or_else(|| unknown(name), |written| written.draft(name));
+    let (materials, treated): (Vec<_>, Vec<_>) = used.iter().map(|name| draft(name).finish()).unzip();
+    remarks.extend(without_rows(&materials));
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.corners);
     let said = format!("Imported from {}, with camera and light that were chosen", wish.mesh);
     let description = framing::scene(wish, said, corners, materials, Normals::Smooth, Angle::Phong)?;
     Ok(Imported { description, treated, remarks, mesh: None })
 }
 
-/// The names behind `mtllib`, each once. A name may have spaces in it, and a line may have several names: it is one
-/// name where there is such a file.
-fn named_libraries(text: &str, read: &mut dyn FnMut(&str) -> io::Result<String>) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for (_, statement) in Statements::of(text) {
-        if statement.split_whitespace().next() != Some("mtllib") {
-            continue;
-        }
-        let whole = name_behind(&statement);
-        let several = whole.split_whitespace().count() > 1 && read(whole).is_err();
-        let found: Vec<&str> = if several { whole.split_whitespace().collect() } else { vec![whole] };
-        for name in found.into_iter().filter(|name| !name.is_empty()) {
-            if !names.iter().any(|known| known == name) {
-                names.push(name.to_owned());
+/// What a model names, and the line that names it first, counted from 1.
+#[derive(Default)]
+struct Named {
+    /// The libraries behind `mtllib`, in the order of the file, each once.
+    libraries: Vec<(usize, String)>,
+    /// The materials behind `usemtl`.
+    materials: BTreeMap<String, usize>,
+}
+
+impl Named {
+    /// The name of a library may have spaces in it, and a line may have several names: it is one name where there is
+    /// such a file.
+    fn of(text: &str, read: &mut dyn FnMut(&str) -> io::Result<String>) -> Self {
+        let mut named = Self::default();
+        for (line, statement) in Statements::of(text) {
+            let whole = name_behind(&statement);
+            match statement.split_whitespace().next() {
+                Some("mtllib") => {
+                    let several = whole.split_whitespace().count() > 1 && read(whole).is_err();
+                    let names = if several { whole.split_whitespace().collect() } else { vec![whole] };
+                    names.into_iter().for_each(|name| named.library(line, name));
+                }
+                Some("usemtl") => drop(named.materials.entry(whole.to_owned()).or_insert(line)),
+                _ => {}
             }
         }
+        named
     }
-    names
+
+    fn library(&mut self, line: usize, name: &str) {
+        if !name.is_empty() && !self.libraries.iter().any(|(_, known)| known == name) {
+            self.libraries.push((line, name.to_owned()));
+        }
+    }
 }
 
 #[cfg(test)]
@@ -115,9 +134,14 @@ mod tests {
         let materials: Vec<(&str, f64)> =
             made.description.materials.iter().map(|material| (material.name.as_str(), material.exponent)).collect();
         assert_eq!(materials, [("nameless", 1.0), ("steel", 96.5), ("lost", 1.0)]);
-        assert_eq!(made.remarks.len(), 2, "{:?}", made.remarks);
-        assert!(made.remarks[0].contains("\"b.mtl\""), "{:?}", made.remarks);
-        assert!(made.treated[2].remarks[0].contains("no library"), "{:?}", made.treated);
+        assert_eq!(made.remarks.len(), 3, "{:?}", made.remarks);
+        assert!(made.remarks[0].starts_with("line 2: the library \"b.mtl\""), "{:?}", made.remarks);
+        assert!(made.remarks[2].starts_with("1 of 3 exponents is"), "{:?}", made.remarks);
+        assert!(
+            made.treated[2].remarks[0].contains("no library tells of this material (line 10)"),
+            "{:?}",
+            made.treated
+        );
     }
 
     #[test]

@@ -4,6 +4,8 @@
 //! are less than the crates that would bring it: boxes are halved at the median of their longest side, so that the
 //! depth is the logarithm of the count and a ray needs a small stack. Planes have no box and are asked one by one.
 
+use std::ops::Range;
+
 use crate::scene::{Shape, Surface, Vector};
 
 use super::rays::Ray;
@@ -20,6 +22,14 @@ pub struct Bvh {
     surfaces: Vec<Surface>,
     planes: Vec<Surface>,
     nodes: Vec<Node>,
+}
+
+/// What stands directly below a node of a tree.
+pub(crate) enum Below {
+    /// Two nodes.
+    Halves([usize; 2]),
+    /// Surfaces, by their places in the tree.
+    Surfaces(Range<usize>),
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -115,6 +125,25 @@ impl Bvh {
         }
         let surfaces = items.into_iter().map(|item| item.surface).collect();
         Self { surfaces, planes, nodes }
+    }
+
+    /// The number of nodes; what stands below a node comes after it.
+    pub(crate) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// What stands directly below a node.
+    pub(crate) fn below(&self, node: usize) -> Below {
+        let Node { first, count, .. } = self.nodes[node];
+        match count {
+            0 => Below::Halves([node + 1, first as usize]),
+            _ => Below::Surfaces(first as usize..(first + count) as usize),
+        }
+    }
+
+    /// A surface of the tree, by its place there.
+    pub(crate) fn surface(&self, index: usize) -> &Surface {
+        &self.surfaces[index]
     }
 
     /// Where the ray meets a surface first, and the surface's material.

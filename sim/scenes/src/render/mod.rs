@@ -42,6 +42,7 @@ mod sheet;
 mod surfaces;
 
 pub use angle::{Presented, presented};
+pub(crate) use bvh::Below;
 pub use bvh::Bvh;
 pub use colour::Codes;
 pub use figures::{Cycles, Difference, MaterialFigures, by_material, difference};

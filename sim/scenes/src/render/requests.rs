@@ -34,13 +34,15 @@ pub struct MissingExponent {
 }
 
 /// Which row of the ROM serves an exponent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RowFor {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RowFor<'a> {
     /// Its own.
     Exactly,
     /// Its own or, where it has none, that of the nearest exponent by ratio: the greatest difference of x^n and x^m
     /// over x depends on m/n alone, and is the same for n/m.
     Nearest,
+    /// The second exponent's, where the list has the first; otherwise, as of what is not asked for, the nearest.
+    Served(&'a [(f64, f64)]),
 }
 
 /// Which samples go to the pipeline.
@@ -100,7 +102,7 @@ impl<'a> ScenePipeline<'a> {
     ///
     /// # Errors
     /// When each is to have a row of its own, and the ROM has no word for the exponent of a material.
-    pub fn with_rows(design: &'a Design, scene: &Scene, rows: RowFor) -> Result<Self, MissingExponent> {
+    pub fn with_rows(design: &'a Design, scene: &Scene, rows: RowFor<'_>) -> Result<Self, MissingExponent> {
         let rom = design.rom();
         let exponents = scene.exponents();
         let front_end = design.datapath().front_end();
@@ -113,6 +115,10 @@ impl<'a> ScenePipeline<'a> {
             let place = match rows {
                 RowFor::Exactly => rom.exponents().position(exponent),
                 RowFor::Nearest => nearest(rom.exponents().as_slice(), exponent),
+                RowFor::Served(list) => {
+                    let serving = list.iter().find(|(n, _)| *n == exponent).map_or(exponent, |&(_, row)| row);
+                    nearest(rom.exponents().as_slice(), serving)
+                }
             };
             let Some(place) = place else {
                 let available = rom.exponents().to_string();

@@ -27,7 +27,7 @@ pub(crate) use description::{
 pub use error::{MeshError, SceneError};
 pub use knot::{Knot, KnotError};
 pub use mesh::{Mesh, Triangle, triangles};
-pub(crate) use obj::{GREATEST_COORDINATE, MOST_TRIANGLES, Statements, name_behind};
+pub(crate) use obj::{GREATEST_COORDINATE, MOST_TRIANGLES, MOST_VECTORS, Statements, name_behind};
 pub(crate) use polygon::has_area;
 pub use read::schema;
 pub use vector::Vector;

@@ -69,8 +69,22 @@ pub struct Part {
     pub differing: u64,
     /// The greatest difference of intensities, as a fraction of full intensity.
     pub greatest: f64,
-    /// x from 0 up to the first, each of which is refused with the flag; none where every x is answered.
+    /// x from 0 up to the first that the row answers, each of which is refused with the flag; none where every x is
+    /// answered. The row answers from this part's first x, or from that of another part which it serves.
     pub refused: u64,
+    /// Which row answers, in every part of a certificate in which a row serves an exponent that is not its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub served: Option<Served>,
+}
+
+/// Which row answers for an exponent, and what that costs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Served {
+    /// The exponent of the row.
+    pub row: f64,
+    /// The greatest difference from the source's row of the part's own exponent, in display codes.
+    pub codes: u16,
 }
 
 /// A certificate as it stands in its file.
@@ -197,10 +211,15 @@ fn statement(proved: Proved, display: Display, parts: &[Part], source: &Config, 
             greatest(parts)
         ),
     };
+    let shared = match parts.iter().filter(|part| part.served.is_some_and(|served| served.row != part.n)).count() {
+        0 => String::new(),
+        count => format!(" ({count} of {} exponents served by the row of another)", parts.len()),
+    };
     let outside = if specialised.domain.is_empty() {
         "no x from 0 to 1 is outside the domain".to_owned()
     } else {
         format!("all {refused} others from 0 to 1 are refused with out_of_domain")
     };
-    format!("{} and {} give {how} at every one of {points} points (n, x); {outside}", specialised.name, source.name)
+    let (specialised, source) = (&specialised.name, &source.name);
+    format!("{specialised} and {source} give {how} at every one of {points} points (n, x){shared}; {outside}")
 }

@@ -23,8 +23,9 @@ use super::certificate::{Certificate, Display, Part, Proved};
 use super::codes::pixels_outside;
 use super::compare::certify;
 use super::demand::{Demand, demands};
-use super::derive::{AskedRow, kept, rows};
+use super::derive::{AskedRow, kept, served_rows, serving};
 use super::refused::Refused;
+use super::serve::{with_words, words_beside};
 use crate::render::samples;
 use crate::scene::{DISPLAY_BITS, Scene};
 use bounds::seal::{BrokenSeal, identity};
@@ -103,7 +104,7 @@ fn check_display(certificate: &Certificate) -> Result<(), Refused> {
 fn check_asked(certificate: &Certificate, asked: Asked<'_>) -> Result<(), Refused> {
     let other = |field, said: String, asked: String| Err(Refused::Asked { field, said, asked });
     if let Some(source) = asked.source
-        && *source != certificate.source
+        && wanted_source(certificate, source)? != certificate.source
     {
         let said = match certificate.source.name == source.name {
             true => format!("another configuration of the name {}", source.name),
@@ -135,6 +136,17 @@ fn check_asked(certificate: &Certificate, asked: Asked<'_>) -> Result<(), Refuse
     check_demands(certificate, &demands)
 }
 
+/// The configuration asked for, with a word for each exponent where rows are shared.
+fn wanted_source(certificate: &Certificate, source: &Config) -> Result<Config, Refused> {
+    if certificate.parts.iter().all(|part| part.served.is_none()) {
+        return Ok(source.clone());
+    }
+    let exponents = certificate.parts.iter().map(|part| part.n);
+    let problem =
+        |error: &dyn std::fmt::Display| Refused::Field { field: "parts".to_owned(), problem: error.to_string() };
+    with_words(source, exponents).map_err(|error| problem(&error))
+}
+
 /// The domain holds all that the scene asks, and no other exponent.
 fn check_demands(certificate: &Certificate, demands: &[Demand]) -> Result<(), Refused> {
     let refused = |index, n, problem| Err(Refused::Part { index, n, problem });
@@ -157,7 +169,7 @@ fn check_demands(certificate: &Certificate, demands: &[Demand]) -> Result<(), Re
 /// The rows of the parts; a part must be what the specialised configuration answers.
 fn own_rows(certificate: &Certificate, source: &Design, specialised: &Design) -> Result<Vec<AskedRow>, Refused> {
     let demand = |(index, part): (usize, &Part)| match part.least {
-        least if (0.0..=1.0).contains(&least) => Ok(Demand { exponent: part.n, least, greatest: 1.0, mesh: false }),
+        least if (0.0..=1.0).contains(&least) => Ok(Demand { exponent: part.n, least, greatest: 1.0 }),
         least => {
             let problem = format!("least is {least}; it is an x from 0 to 1");
             Err(Refused::Part { index, n: part.n, problem })
@@ -165,9 +177,11 @@ fn own_rows(certificate: &Certificate, source: &Design, specialised: &Design) ->
     };
     let demands = certificate.parts.iter().enumerate().map(demand).collect::<Result<Vec<_>, _>>()?;
     let whole = |problem: String| Refused::Field { field: "parts".to_owned(), problem };
-    let rows = rows(source, &demands).map_err(|error| whole(error.to_string()))?;
+    let own_or_other = |part: &Part| part.served.map_or(part.n, |served| served.row);
+    let rows_of: Vec<f64> = certificate.parts.iter().map(own_or_other).collect();
+    let rows = served_rows(source, &demands, &rows_of).map_err(|error| whole(error.to_string()))?;
     let exponents = specialised.rom().exponents();
-    if !exponents.iter().eq(rows.iter().map(|row| row.demand.exponent)) {
+    if !exponents.iter().eq(serving(&rows)) {
         return Err(whole(format!("the specialised ROM has n = {exponents}, and other parts")));
     }
     Ok(rows)
@@ -263,8 +277,9 @@ fn not_checked(certificate: &Certificate, asked: Asked<'_>) -> Vec<String> {
             asked.collect::<Vec<_>>().join(", ")
         ));
     }
-    if asked.source.is_none() {
-        sentences.push(identity(source));
+    match asked.source {
+        None => sentences.push(identity(source)),
+        Some(asked) => sentences.extend(words_beside(asked, source)),
     }
     if asked.codes.is_none()
         && let Proved::Codes { allowed, .. } = certificate.proved

@@ -6,7 +6,7 @@ use hw_model::quantise::real;
 use rayon::prelude::*;
 use vectors::limits::{Sweep, TooManyInputs};
 
-use super::certificate::{Display, Part, Proved};
+use super::certificate::{Display, Part, Proved, Served};
 use super::derive::AskedRow;
 use super::refused::Refused;
 use crate::render::Codes;
@@ -48,8 +48,11 @@ pub fn certify(
     let codes = Codes::new(&Image { width: 1, height: 1, display_bits: display.bits, transfer: display.transfer });
     let mut greatest_codes = 0;
     let mut parts = Vec::new();
+    let shared = rows.iter().any(|row| row.serving != row.demand.exponent);
     for (index, row) in rows.iter().enumerate() {
-        let pair = Pair::new(source, specialised, row, &codes).map_err(|problem| Refused::Part {
+        let of_row = rows.iter().filter(|other| other.serving == row.serving);
+        let refused_below = of_row.map(|other| other.least).min().unwrap_or(row.least);
+        let pair = Pair::new(source, specialised, row, refused_below, &codes).map_err(|problem| Refused::Part {
             index,
             n: row.demand.exponent,
             problem,
@@ -69,7 +72,7 @@ pub fn certify(
             }
             _ => {}
         }
-        parts.push(pair.part(row, &found));
+        parts.push(pair.part(row, &found, shared));
     }
     let proved = match allowed {
         None => Proved::BitIdentical,
@@ -78,15 +81,15 @@ pub fn certify(
     Ok((proved, parts))
 }
 
-/// The same exponent in both.
+/// An exponent in the source, and the row that answers for it.
 struct Pair<'a> {
     designs: [&'a Design; 2],
     addresses: [u32; 2],
     codes: &'a Codes,
     /// The first and the last x of the domain.
     domain: (i64, i64),
-    /// Whether x below the domain are refused.
-    guarded: bool,
+    /// Every x below this is refused; 0 where none is.
+    refused_below: i64,
 }
 
 /// What comes out for one x: the intensity in its output's unit, and the flags.
@@ -118,21 +121,27 @@ impl Found {
 }
 
 impl<'a> Pair<'a> {
-    fn new(source: &'a Design, specialised: &'a Design, row: &AskedRow, codes: &'a Codes) -> Result<Self, String> {
+    fn new(
+        source: &'a Design,
+        specialised: &'a Design,
+        row: &AskedRow,
+        refused_below: i64,
+        codes: &'a Codes,
+    ) -> Result<Self, String> {
         let designs = [source, specialised];
-        let place = |design: &Design| {
-            let place = design.rom().exponents().position(row.demand.exponent);
+        let place = |design: &Design, exponent: f64| {
+            let place = design.rom().exponents().position(exponent);
             place.map(|place| place as u32).ok_or_else(|| format!("{} has no word", design.config().name))
         };
-        let addresses = [place(source)?, place(specialised)?];
+        let addresses = [place(source, row.demand.exponent)?, place(specialised, row.serving)?];
         if source.config().input != specialised.config().input {
             return Err("the two take x in different formats".to_owned());
         }
         let greatest = source.datapath().front_end().greatest;
         let guarded = specialised.datapath().front_end().guarded;
         // Without a guard every x is answered, and so every x is looked at.
-        let first = if guarded { row.least } else { 0 };
-        Ok(Self { designs, addresses, codes, domain: (first, greatest), guarded })
+        let (first, refused_below) = if guarded { (row.least, refused_below) } else { (0, 0) };
+        Ok(Self { designs, addresses, codes, domain: (first, greatest), refused_below })
     }
 
     fn all(&self, progress: &dyn Progress) -> Found {
@@ -143,8 +152,8 @@ impl<'a> Pair<'a> {
                 let (first, end) = (piece * PIECE, ((piece + 1) * PIECE - 1).min(last));
                 let (low, high) = self.domain;
                 let mut found = Found::default();
-                if first < low {
-                    found = found.and(self.outside(first, end.min(low - 1)));
+                if first < self.refused_below {
+                    found = found.and(self.outside(first, end.min(self.refused_below - 1)));
                 }
                 if end >= low {
                     found = found.and(self.inside(first.max(low), end.min(high)));
@@ -176,7 +185,6 @@ impl<'a> Pair<'a> {
     }
 
     fn outside(&self, first: i64, last: i64) -> Found {
-        debug_assert!(self.guarded);
         let refused = (0, Status::OUT_OF_DOMAIN);
         let mut found = Found::default();
         for (x, answer) in (first..).zip(self.answers(1, first, last)) {
@@ -208,10 +216,11 @@ impl<'a> Pair<'a> {
         answers
     }
 
-    fn part(&self, row: &AskedRow, found: &Found) -> Part {
+    fn part(&self, row: &AskedRow, found: &Found, shared: bool) -> Part {
         let Found { points, differing, greatest, refused, .. } = *found;
         let (first, last) = self.domain;
         let (n, least) = (row.demand.exponent, row.demand.least);
-        Part { n, least, first, last, points, differing, greatest, refused }
+        let served = shared.then_some(Served { row: row.serving, codes: found.codes });
+        Part { n, least, first, last, points, differing, greatest, refused, served }
     }
 }

@@ -1,27 +1,23 @@
 //! What a scene asks of the pipeline: for each exponent the interval of x, over every real place of the picture.
 //!
-//! For spheres and planes the greatest and the least x are bounded by tiles: the whole picture is one, its bound by
-//! interval arithmetic is loose, and the tile with the worst bound is cut in two until that bound is near an x that
-//! is presented. Whatever hides a surface is not looked at, which only widens the interval. A mesh presents
-//! everything from 0 to 1, and so do places where this finds no better bound.
+//! The greatest and the least x are bounded by parts: the whole picture, or the whole mesh, is one, its bound by
+//! interval arithmetic is loose, and the part with the worst bound is cut in two until that bound is near an x that
+//! is presented ([`super::search`]). Parts of spheres and planes are tiles of the picture, parts of meshes are boxes of a
+//! tree and pieces of triangles ([`super::patch`]). Whatever hides a surface is not looked at, which only widens the
+//! interval.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use rayon::prelude::*;
 
+use super::patch::Patches;
+use super::search::{Places, end};
 use super::space::Rays;
 use super::tile;
 use crate::render::{meet, presented, ray};
 use crate::scene::{Light, Scene, Shape, Surface};
 use bounds::interval::Interval;
 
-/// Bounds end this near to an x that is presented.
-const NEAR: f64 = 1.0 / 16384.0;
-
-/// The most tiles that are cut for one surface, light and end.
-const MOST_TILES: usize = 1 << 15;
-
 /// Pictures are computed in f64, whose rounding may move an x out of the bounds of the real ones: far less than this
-/// unless a ball is seen from some 10⁵ of its radii, and what does leave is found where pixels are held against the
+/// unless a ball is seen from some 10⁵ of its radii, or a triangle nearly edge on, and what does leave is found where pixels are held against the
 /// bounds ([`super::pixels_outside`]).
 const MARGIN: f64 = 1e-9;
 
@@ -34,35 +30,33 @@ pub struct Demand {
     pub least: f64,
     /// No place presents more.
     pub greatest: f64,
-    /// True where the interval is that of a mesh, about which nothing is known.
-    pub mesh: bool,
 }
 
 /// What the scene asks, by rising exponent; exponents of which no place is lit and seen are left out.
 #[must_use]
 pub fn demands(scene: &Scene) -> Vec<Demand> {
-    scene.exponents().into_iter().filter_map(|exponent| demand(scene, exponent)).collect()
+    scene.exponents().into_par_iter().filter_map(|exponent| demand(scene, exponent)).collect()
 }
 
 fn demand(scene: &Scene, exponent: f64) -> Option<Demand> {
     let of_it = |surface: &&Surface| scene.materials[usize::from(surface.material)].exponent == exponent;
-    let surfaces: Vec<&Surface> = scene.surfaces.iter().filter(of_it).collect();
-    if surfaces.iter().any(|surface| matches!(surface.shape, Shape::Triangle(_))) {
-        return Some(Demand { exponent, least: 0.0, greatest: 1.0, mesh: true });
+    let (triangles, others): (Vec<&Surface>, Vec<&Surface>) =
+        scene.surfaces.iter().filter(of_it).partition(|surface| matches!(surface.shape, Shape::Triangle(_)));
+    let patches = Patches::new(scene, triangles.into_iter().copied());
+    let mut ends = Vec::new();
+    for light in &scene.lights {
+        ends.extend(both_ends(&patches.lit_by(light)));
+        ends.extend(others.iter().filter_map(|surface| both_ends(&Presenting { scene, shape: &surface.shape, light })));
     }
-    let mut found: Option<(f64, f64)> = None;
-    for surface in surfaces {
-        for light in &scene.lights {
-            let of = Presenting { scene, shape: &surface.shape, light };
-            let Some(greatest) = of.end(true) else { continue };
-            let least = of.end(false).unwrap_or(0.0);
-            let (low, high) = found.unwrap_or((least, greatest));
-            found = Some((low.min(least), high.max(greatest)));
-        }
-    }
-    let (least, greatest) = found?;
+    let (least, greatest) = ends.into_iter().reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)))?;
     let (least, greatest) = ((least - MARGIN).max(0.0), (greatest + MARGIN).min(1.0));
-    Some(Demand { exponent, least, greatest, mesh: false })
+    Some(Demand { exponent, least, greatest })
+}
+
+/// Bounds of the least and the greatest x; none where no place is lit and seen.
+fn both_ends(places: &impl Places) -> Option<(f64, f64)> {
+    let greatest = end(places, true)?;
+    Some((end(places, false).unwrap_or(0.0), greatest))
 }
 
 /// One surface in one light.
@@ -72,72 +66,38 @@ struct Presenting<'a> {
     light: &'a Light,
 }
 
-/// A part of the picture, in pixels from its upper left corner, and what may lie in it.
+/// A tile of the picture, in pixels from its upper left corner.
 struct Tile {
     columns: Interval,
     rows: Interval,
-    /// No place of it is worth more: x, or −x where the least is looked for.
-    worth: f64,
 }
 
-impl PartialEq for Tile {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Tile {}
-impl PartialOrd for Tile {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-impl Ord for Tile {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.worth.total_cmp(&other.worth)
-    }
-}
+impl Places for Presenting<'_> {
+    type Part = Tile;
 
-impl Presenting<'_> {
-    /// A bound of the greatest x, or of the least; none where no place is lit and seen.
-    fn end(&self, greatest: bool) -> Option<f64> {
-        let sign = if greatest { 1.0 } else { -1.0 };
-        let image = &self.scene.image;
+    fn whole(&self) -> Option<Tile> {
         let side = |side: u32| Interval::new(0.0, f64::from(side));
-        let mut open = BinaryHeap::new();
-        let whole = self.tile(side(image.width), side(image.height), sign)?;
-        open.push(whole);
-        let mut best = f64::NEG_INFINITY;
-        for _ in 0..MOST_TILES {
-            let tile = open.peek()?;
-            best = best.max(sign * self.middle(tile).unwrap_or(f64::NEG_INFINITY * sign));
-            // x below 0 is not asked for: there is nothing beyond either end.
-            let last = if greatest { 1.0 } else { 0.0 };
-            if tile.worth <= best + NEAR || (tile.worth == last && best >= last - NEAR) {
-                break;
-            }
-            let Tile { columns, rows, .. } = open.pop()?;
-            for (columns, rows) in halves(columns, rows) {
-                open.extend(self.tile(columns, rows, sign));
-            }
-        }
-        open.peek().map(|tile| sign * tile.worth)
+        let image = &self.scene.image;
+        Some(Tile { columns: side(image.width), rows: side(image.height) })
     }
 
-    fn tile(&self, columns: Interval, rows: Interval, sign: f64) -> Option<Tile> {
-        let rays = Rays::new(&self.scene.view, &self.scene.image, columns, rows);
-        let x = tile::presented(&rays, self.shape, self.scene.angle, self.light)?;
-        let worth = if sign > 0.0 { x.high() } else { -x.low() };
-        Some(Tile { columns, rows, worth })
+    fn bound(&self, tile: &Tile) -> Option<Interval> {
+        let rays = Rays::new(&self.scene.view, &self.scene.image, tile.columns, tile.rows);
+        tile::presented(&rays, self.shape, self.scene.angle, self.light)
     }
 
-    /// x in the middle of a tile, where it shows the surface and the light.
-    fn middle(&self, tile: &Tile) -> Option<f64> {
+    /// x in the middle of a tile.
+    fn sample(&self, tile: &Tile) -> Option<f64> {
         let Scene { view, image, angle, .. } = self.scene;
         let ray = ray(view, image, tile.columns.middle(), tile.rows.middle());
         let hit = meet(&ray, self.shape, f64::INFINITY)?;
         let place = ray.origin + ray.direction * hit.distance;
         let found = presented(*angle, self.light, place, hit.normal, -ray.direction);
         (!found.faces_away()).then_some(found.x)
+    }
+
+    fn cut(&self, tile: &Tile) -> Option<Vec<Tile>> {
+        Some(halves(tile.columns, tile.rows).map(|(columns, rows)| Tile { columns, rows }).into())
     }
 }
 
@@ -161,6 +121,10 @@ mod tests {
     use super::*;
 
     fn scene(rest: &str) -> Scene {
+        scene_with(rest, "")
+    }
+
+    fn scene_with(rest: &str, mesh: &str) -> Scene {
         let text = format!(
             r#"{{"name": "s", "image": {{"width": 40, "height": 30}},
             "lights": [{{"directional": {{"towards": [1, 2, 2], "colour": [1, 1, 1]}}}},
@@ -169,7 +133,7 @@ mod tests {
                           {{"name": "b", "exponent": 9, "diffuse": [0, 0, 0], "specular": [1, 1, 1]}}],
             {rest}}}"#
         );
-        Scene::from_json(&text, &mut |_| Ok(String::new())).unwrap()
+        Scene::from_json(&text, &mut |_| Ok(mesh.to_owned())).unwrap()
     }
 
     fn holds(scene: &Scene, demands: &[Demand], column: f64, row: f64) {
@@ -212,6 +176,86 @@ mod tests {
                 holds(&scene, &demands, column, row);
             }
         }
+    }
+
+    /// Triangles between places, with normals of any direction at their corners: some of them beyond the plane.
+    fn mesh(places: &[[f64; 3]], normals: &[[f64; 3]]) -> String {
+        use std::fmt::Write;
+        let mut text = String::new();
+        for ([x, y, z], [a, b, c]) in places.iter().zip(normals) {
+            writeln!(text, "v {x} {y} {z}\nvn {a} {b} {c}").unwrap();
+        }
+        for first in (1..places.len() - 1).step_by(3) {
+            let [a, b, c] = [0, 1, 2].map(|step| first + step);
+            writeln!(text, "f {a}//{a} {b}//{b} {c}//{c}").unwrap();
+        }
+        text
+    }
+
+    fn triples(count: usize, reach: f64) -> impl Strategy<Value = Vec<[f64; 3]>> {
+        prop::collection::vec([-reach..reach, -reach..reach, -reach..reach], count)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        #[test]
+        fn no_place_of_a_mesh_leaves_its_interval(
+            (x, y, z) in (-4.0..4.0, 0.2..4.0, 1.0..5.0),
+            field in 2.0..90.0,
+            (phong, smooth, like_a_ball) in (any::<bool>(), any::<bool>(), any::<bool>()),
+            corners in triples(30, 1.5),
+            free in triples(30, 1.0),
+            places in prop::collection::vec((0.0..40.0, 0.0..30.0), 400)
+        ) {
+            let angle = if phong { "phong" } else { "blinn" };
+            let normals = if smooth { "smooth" } else { "flat" };
+            let text = mesh(&corners, if like_a_ball { &corners } else { &free });
+            let scene = scene_with(&format!(
+                r#""angle": "{angle}", "camera": {{"position": [{x}, {y}, {z}], "look_at": [0, 0, 0],
+                "field_of_view_degrees": {field}}}, "geometry": [
+                {{"mesh": {{"file": "m.obj", "material": "a", "normals": "{normals}"}}}}]"#
+            ), &text);
+            let demands = demands(&scene);
+            for (column, row) in places {
+                holds(&scene, &demands, column, row);
+            }
+        }
+    }
+
+    /// A mesh of a ball is bounded nearly as the ball is.
+    #[test]
+    fn a_close_up_of_a_mesh_is_bounded_as_a_ball_is() {
+        use std::fmt::Write;
+        let side = 25;
+        let mut text = String::new();
+        for (row, column) in (0..side).flat_map(|row| (0..side).map(move |column| (row, column))) {
+            let of = |step: i32| (f64::from(step) / f64::from(side - 1) - 0.5) * 0.4;
+            let normal = crate::scene::Vector::new(of(column), of(row), 1.0).unit().unwrap();
+            let [place, normal] = [normal * 20.0, normal].map(crate::scene::Vector::coordinates);
+            writeln!(text, "v {} {} {}", place[0], place[1], place[2]).unwrap();
+            writeln!(text, "vn {} {} {}", normal[0], normal[1], normal[2]).unwrap();
+        }
+        for (row, column) in (1..side).flat_map(|row| (1..side).map(move |column| (row, column))) {
+            let [a, b, c, d] = [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)]
+                .map(|(row, column)| row * side + column + 1);
+            writeln!(text, "f {a}//{a} {b}//{b} {c}//{c} {d}//{d}").unwrap();
+        }
+        let ball = r#"{"sphere": {"centre": [0, 0, 0], "radius": 20, "material": "a"}}"#;
+        let of = |geometry: &str| {
+            let rest = format!(
+                r#""camera": {{"position": [0, 0, 600], "look_at": [0, 0, 0], "field_of_view_degrees": 0.18}},
+                "geometry": [{geometry}]"#
+            );
+            let mut scene = scene_with(&rest, &text);
+            scene.lights.truncate(1);
+            scene.lights[0].origin = crate::scene::Origin::Direction(crate::scene::Vector::new(0.0, 0.0, 1.0));
+            let [demand] = demands(&scene)[..] else { panic!("one exponent") };
+            demand
+        };
+        let (of_ball, of_mesh) = (of(ball), of(r#"{"mesh": {"file": "m.obj", "material": "a"}}"#));
+        assert!(of_ball.least > 0.98 && (of_ball.least - of_mesh.least).abs() < 3e-4, "{of_ball:?} {of_mesh:?}");
+        assert!(of_mesh.greatest > 0.9999, "{of_mesh:?}");
     }
 
     #[test]

@@ -26,7 +26,10 @@ pub enum SpecialiseError {
     #[error("the scene asks for no highlight: no surface is both lit and seen")]
     NothingAsked,
     /// An exponent that the source has not.
-    #[error("the ROM of {configuration} has no word for n = {exponent}; it has {available}")]
+    #[error(
+        "the ROM of {configuration} has no word for n = {exponent}; it has {available}; --nearest shares rows among \
+         exponents"
+    )]
     MissingExponent {
         /// The name of the source configuration.
         configuration: String,
@@ -48,40 +51,62 @@ pub enum SpecialiseError {
 pub struct AskedRow {
     /// The x that the scene presents with this exponent.
     pub demand: Demand,
-    /// Where the source has it.
+    /// The exponent whose row answers: its own, or one that is near it ([`super::serve`]).
+    pub serving: f64,
+    /// Where the source has the demand's own exponent.
     pub address: u32,
-    /// The source's cut, in the input's unit.
+    /// The source's cut of the row that answers, in the input's unit.
     pub cut: i64,
     /// The least x that is asked, in the input's unit, rounded down.
     pub least: i64,
 }
 
-/// The rows that are asked for.
+/// The rows that are asked for, each by its own exponent.
 ///
 /// # Errors
 /// When nothing is asked, or an exponent has no word.
 pub fn rows(source: &Design, demands: &[Demand]) -> Result<Vec<AskedRow>, SpecialiseError> {
+    let own: Vec<f64> = demands.iter().map(|demand| demand.exponent).collect();
+    served_rows(source, demands, &own)
+}
+
+/// The rows that are asked for, where each demand is served by the row of the exponent at its place in `serving`.
+///
+/// # Errors
+/// When nothing is asked, or an exponent of either has no word.
+pub fn served_rows(source: &Design, demands: &[Demand], serving: &[f64]) -> Result<Vec<AskedRow>, SpecialiseError> {
     if demands.is_empty() {
         return Err(SpecialiseError::NothingAsked);
     }
     let rom = source.rom();
     let input = source.config().input;
-    let row = |demand: &Demand| {
-        let missing = || SpecialiseError::MissingExponent {
+    let place_of = |exponent: f64| {
+        rom.exponents().position(exponent).ok_or_else(|| SpecialiseError::MissingExponent {
             configuration: source.config().name.clone(),
-            exponent: demand.exponent,
+            exponent,
             available: rom.exponents().to_string(),
-        };
-        let place = rom.exponents().position(demand.exponent).ok_or_else(missing)?;
+        })
+    };
+    let row = |(demand, &serving): (&Demand, &f64)| {
         let scaled = round_scaled(demand.least, input.fraction_bits(), Rounding::Floor);
         Ok(AskedRow {
             demand: *demand,
-            address: place as u32,
-            cut: source.datapath().front_end().cut(&rom.rows()[place]),
+            serving,
+            address: place_of(demand.exponent)? as u32,
+            cut: source.datapath().front_end().cut(&rom.rows()[place_of(serving)?]),
             least: scaled.unwrap_or(0) as i64,
         })
     };
-    demands.iter().map(row).collect()
+    demands.iter().zip(serving).map(row).collect()
+}
+
+/// The exponents whose rows answer, each once, rising.
+#[must_use]
+pub fn serving(rows: &[AskedRow]) -> Vec<f64> {
+    let mut list: Vec<f64> = rows.iter().map(|row| row.serving).collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup();
+    list
 }
 
 /// True where no row needs what lies below its cut.
@@ -127,13 +152,16 @@ pub(super) fn kept(source: &Design, rows: &[AskedRow], name: &str) -> Result<Con
     let mut config = source.config().clone();
     config.name = format!("{name}_{}", config.name);
     config.description = format!("{} for what the scene {name} asks", source.config().name);
-    config.exponents = Exponents::new(rows.iter().map(|row| row.demand.exponent).collect())?;
+    config.exponents = Exponents::new(serving(rows))?;
     config.coefficient_steps.retain(|steps| config.exponents.position(steps.n).is_some());
     config.domain = Vec::new();
     if is_guarded(source, rows) {
         config.tail = Tail::Zero;
-        let presented = |row: &AskedRow| Presented { n: row.demand.exponent, least: row.demand.least };
-        config.domain = rows.iter().map(presented).collect();
+        let least = |n: f64| {
+            let of_it = rows.iter().filter(|row| row.serving == n);
+            Presented { n, least: of_it.map(|row| row.demand.least).fold(1.0, f64::min) }
+        };
+        config.domain = config.exponents.iter().map(least).collect();
     }
     Ok(config)
 }
@@ -199,7 +227,7 @@ mod tests {
         let demand = |row: &RealRow| {
             let ends = [0, row.cut, row.cut + 3, row.least_of_segment(0), greatest];
             let least = ends[place] as f64 * source.config().input.ulp();
-            Demand { exponent: row.exponent, least, greatest: 1.0, mesh: false }
+            Demand { exponent: row.exponent, least, greatest: 1.0 }
         };
         let demands: Vec<Demand> = source.rows().iter().map(demand).collect();
         let rows = rows(source, &demands).unwrap();

@@ -10,9 +10,17 @@ use bounds::interval::Interval;
 pub(super) struct Space([Interval; 3]);
 
 impl Space {
+    /// Every vector.
+    pub(super) const UNKNOWN: Self = Self([Interval::UNKNOWN; 3]);
+
     /// The vector of intervals that holds one vector alone.
     pub(super) fn exactly(vector: Vector) -> Self {
         Self(vector.coordinates().map(Interval::exactly))
+    }
+
+    /// The least box that holds both.
+    pub(super) fn hull(self, other: Self) -> Self {
+        Self(std::array::from_fn(|index| self.0[index].hull(other.0[index])))
     }
 
     pub(super) fn dot(self, other: Self) -> Interval {

@@ -5,14 +5,16 @@ use super::space::{Rays, Space};
 use crate::scene::{Angle, Light, Origin, Shape, Vector};
 use bounds::interval::Interval;
 
-/// Where the rays of a tile meet a surface: the cosine between normal and viewer, and the rest a light needs.
-struct Met {
+/// Places of a surface that are seen: the cosine between normal and viewer, and the rest a light needs.
+pub(super) struct Met {
     /// To the camera, length 1.
-    viewer: Space,
-    normal: Space,
+    pub viewer: Space,
+    /// The normal that shades, length 1.
+    pub normal: Space,
     /// N·V.
-    facing: Interval,
-    place: Space,
+    pub facing: Interval,
+    /// Where it is.
+    pub place: Space,
 }
 
 /// Where the rays of a tile meet a plane.
@@ -26,8 +28,8 @@ enum Plane {
 /// Every x that is asked for.
 const ANYTHING: Interval = Interval::UNIT;
 
-/// x of all places of a tile that show the surface by this light; none where no place does. A mesh is not looked at:
-/// its triangles present anything from 0 to 1.
+/// x of all places of a tile that show the surface by this light; none where no place does. A triangle is not looked at
+/// by tiles: it presents anything from 0 to 1.
 pub(super) fn presented(rays: &Rays, shape: &Shape, angle: Angle, light: &Light) -> Option<Interval> {
     let met = match shape {
         Shape::Sphere { centre, radius } => sphere(rays, *centre, *radius)?,
@@ -38,34 +40,41 @@ pub(super) fn presented(rays: &Rays, shape: &Shape, angle: Angle, light: &Light)
         },
         Shape::Triangle(_) => return Some(ANYTHING),
     };
-    let towards = match light.origin {
-        Origin::Direction(towards) => Space::exactly(towards),
-        Origin::Place(at) => {
-            let to = Space::exactly(at) - met.place;
-            to.over(to.square().sqrt())
+    met.lit_by(angle, light)
+}
+
+impl Met {
+    /// x of all these places by this light; none where no place is lit.
+    pub(super) fn lit_by(&self, angle: Angle, light: &Light) -> Option<Interval> {
+        let towards = match light.origin {
+            Origin::Direction(towards) => Space::exactly(towards),
+            Origin::Place(at) => {
+                let to = Space::exactly(at) - self.place;
+                to.over(to.square().sqrt())
+            }
+        };
+        let lit = cosine(self.normal.dot(towards));
+        if lit.high() <= 0.0 {
+            return None;
         }
-    };
-    let lit = cosine(met.normal.dot(towards));
-    if lit.high() <= 0.0 {
-        return None;
+        // What faces away is never asked for.
+        let lit = lit.within(0.0, 1.0)?;
+        let between = cosine(towards.dot(self.viewer));
+        let x = match angle {
+            // R·V = 2(N·L)(N·V) − L·V
+            Angle::Phong => Interval::exactly(2.0) * lit * self.facing - between,
+            // N·H = (N·L + N·V)/|L + V|, and |L + V|² = 2 + 2 L·V
+            Angle::Blinn => {
+                let two = Interval::exactly(2.0);
+                (lit + self.facing) / (two + two * between).sqrt()
+            }
+        };
+        x.within(0.0, 1.0)
     }
-    // What faces away is never asked for.
-    let lit = lit.within(0.0, 1.0)?;
-    let between = cosine(towards.dot(met.viewer));
-    let x = match angle {
-        // R·V = 2(N·L)(N·V) − L·V
-        Angle::Phong => Interval::exactly(2.0) * lit * met.facing - between,
-        // N·H = (N·L + N·V)/|L + V|, and |L + V|² = 2 + 2 L·V
-        Angle::Blinn => {
-            let two = Interval::exactly(2.0);
-            (lit + met.facing) / (two + two * between).sqrt()
-        }
-    };
-    x.within(0.0, 1.0)
 }
 
 /// A cosine of real vectors: what rounding outwards adds beyond ±1 is none.
-fn cosine(value: Interval) -> Interval {
+pub(super) fn cosine(value: Interval) -> Interval {
     value.within(-1.0, 1.0).unwrap_or(Interval::new(-1.0, 1.0))
 }
 

@@ -51,7 +51,7 @@ impl<'a> Names<'a> {
     pub(super) fn draft(&self, name: &str) -> Draft {
         match self.materials.get(name) {
             Some(material) => draft(name, material),
-            None => Draft::unknown(name),
+            None => Draft::unknown(name, None),
         }
     }
 }

@@ -23,6 +23,7 @@ use crate::scene::{Angle, Mesh, Normals};
 
 use super::error::ImportError;
 use super::framing;
+use super::material::without_rows;
 use super::wish::{Imported, Wish};
 use obj_text::ObjText;
 
@@ -46,7 +47,8 @@ pub fn gltf(
     let text = text.finish();
     let mesh = Mesh::read(&text, Normals::Smooth)?;
     let drafts = mesh.materials.iter().map(|name| names.draft(name).finish());
-    let (materials, treated) = drafts.unzip();
+    let (materials, treated): (Vec<_>, Vec<_>) = drafts.unzip();
+    remarks.extend(without_rows(&materials));
     let corners = mesh.triangles.iter().flat_map(|triangle| triangle.corners);
     let said = format!("Imported from glTF as {}, with camera and light that were chosen", wish.mesh);
     let description = framing::scene(wish, said, corners, materials, Normals::Smooth, Angle::Blinn)?;

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use crate::import::error::ImportError;
-use crate::scene::{MOST_TRIANGLES, Vector, has_area};
+use crate::scene::{MOST_TRIANGLES, MOST_VECTORS, Vector, has_area};
+use vectors::text_file::MESH;
 
 /// An OBJ file under way.
 pub(super) struct ObjText {
@@ -46,6 +47,10 @@ impl ObjText {
             material.clone_into(&mut self.material);
         }
         let base = self.positions + 1;
+        if corners.positions.len() > MOST_VECTORS.saturating_sub(self.positions) {
+            let problem = format!("there are more than {MOST_VECTORS} positions; use a coarser mesh");
+            return Err(ImportError::Gltf(problem));
+        }
         for place in &corners.positions {
             let [x, y, z] = place.coordinates();
             let _ = writeln!(self.text, "v {x} {y} {z}");
@@ -78,6 +83,10 @@ impl ObjText {
                     if with_normals { write!(self.text, " {index}//{index}") } else { write!(self.text, " {index}") };
             }
             let _ = self.text.write_str("\n");
+        }
+        if self.text.len() as u64 > MESH.most_bytes {
+            let problem = "the triangles are too many for an OBJ file that can be read; use a coarser mesh".into();
+            return Err(ImportError::Gltf(problem));
         }
         Ok(())
     }

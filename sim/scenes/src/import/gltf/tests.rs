@@ -54,6 +54,18 @@ fn a_material_follows_its_roughness() {
 }
 
 #[test]
+fn glossiness_counts_before_roughness() {
+    let extension = r#""extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0.5, 0.25, 0, 1],
+        "specularFactor": [1, 0.5, 0.25], "glossinessFactor": 0.5}}, "name""#;
+    let text = document(r#", "extensionsUsed": ["KHR_materials_pbrSpecularGlossiness"]"#, &[0, 2, 1]);
+    let made = import(&text.replace("\"name\"", extension)).unwrap();
+    let material = &made.description.materials[0];
+    // Glossiness 1/2 is roughness 1/2: α = 1/4, and n = 2·16 − 2.
+    assert_eq!((material.exponent, made.treated[0].said.as_str()), (30.0, "glossiness 0.5"));
+    assert_eq!((material.diffuse, material.specular), ([0.5, 0.25, 0.0], [1.0, 0.5, 0.25]));
+}
+
+#[test]
 fn damaged_documents_are_refused() {
     let good = document("", &[0, 2, 1]);
     for (from, to, says) in [

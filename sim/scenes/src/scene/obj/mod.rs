@@ -27,7 +27,7 @@ pub(crate) const MOST_TRIANGLES: usize = 4_000_000;
 /// The most materials of a file, and of a scene; an index of 16 bits, with room.
 pub(super) const MOST_MATERIALS: usize = 4096;
 /// The most positions, and the most normals.
-const MOST_VECTORS: usize = 1 << 24;
+pub(crate) const MOST_VECTORS: usize = 1 << 24;
 
 /// A corner of a face: places in the lists of an [`Obj`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
