@@ -18,6 +18,7 @@ mod design;
 mod document;
 mod evaluate;
 mod mesh;
+mod methods;
 mod out;
 mod output;
 mod pareto;

@@ -28,6 +28,7 @@ mod rom_image;
 mod rtl;
 mod scene_import;
 mod simulate;
+mod source;
 mod specialise;
 mod stability;
 mod streams;

@@ -17,7 +17,7 @@ pub mod check;
 pub mod contender;
 mod error;
 pub(crate) mod front;
-mod functions;
+pub(crate) mod functions;
 pub mod inputs;
 mod kernel;
 pub mod synthesis;
