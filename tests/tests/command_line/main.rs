@@ -14,6 +14,7 @@ mod design;
 mod dut;
 mod evaluate;
 mod help;
+mod manual;
 mod meshes;
 mod output;
 mod pareto;
