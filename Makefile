@@ -169,9 +169,10 @@ header: ## the header of the C library, written again from its sources
 
 # DESTDIR is for packagers: what is installed there says that it stands in PREFIX.
 PREFIX ?= /usr/local
-install: ## the command and the C library, in PREFIX=/usr/local
+install: ## the command, its completions and manual pages, and the C library, in PREFIX=/usr/local
 	$(CARGO) build --release --locked --package cli --package blysk-c
 	@install -D -m 755 $(TARGET)/release/blysk $(DESTDIR)$(PREFIX)/bin/blysk
+	@scripts/command-pages $(TARGET)/release/blysk $(DESTDIR)$(PREFIX)
 	@scripts/c-library $(TARGET)/release $(DESTDIR)$(PREFIX) $(PREFIX)
 	@echo "Installed in $(DESTDIR)$(PREFIX); try: PKG_CONFIG_PATH=$(PREFIX)/lib/pkgconfig pkg-config --libs blysk"
 
@@ -181,5 +182,7 @@ clean: ## remove everything that was built or written
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/\1\t\2/p' $(firstword $(MAKEFILE_LIST)) | while IFS=$$'\t' read -r target words; do \
-		printf '  make %-12s %s\n' "$$target" "$$words"; \
+		fold -s -w 80 <<< "$$words" | while IFS= read -r line; do \
+			printf '  %-17s %s\n' "$${target:+make $$target}" "$${line% }"; target=; \
+		done; \
 	done

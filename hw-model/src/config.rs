@@ -5,7 +5,8 @@
 //! itself ([`Config::from_json`] checks it); whether its widths can carry its values is found when
 //! the [`Design`](crate::design::Design) is made.
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use thiserror::Error;
 
 use crate::clock::Clock;
@@ -64,6 +65,7 @@ pub struct Config {
     /// A name for files and reports.
     pub name: String,
     /// hermite, three_point, tangent, minimax, quadratic, or schlick.
+    #[serde(deserialize_with = "method")]
     pub method: Method,
     /// The exponents of the ROM, in the order of their addresses: `1..=256`, `1,2,8,64`.
     pub exponents: Exponents,
@@ -168,6 +170,16 @@ const fn default_quotient_bits() -> u32 {
 }
 const fn default_budget() -> f64 {
     1.0
+}
+
+/// A method by its name. A misspelt one is answered with those that a configuration takes; one without hardware is
+/// refused later, by what to say instead.
+fn method<'de, D: Deserializer<'de>>(from: D) -> Result<Method, D::Error> {
+    let text = String::deserialize(from)?;
+    text.parse().map_err(|_| {
+        let names: Vec<String> = Method::of_hardware().map(|method| format!("`{method}`")).collect();
+        D::Error::custom(format!("unknown method `{text}`, expected one of {}", names.join(", ")))
+    })
 }
 
 /// Why a configuration is refused.

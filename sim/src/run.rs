@@ -63,6 +63,10 @@ pub struct Counts {
     first_request: Option<u64>,
     /// Cycle of the last request taken.
     last_request: Option<u64>,
+    /// Cycle of the first result taken.
+    first_result: Option<u64>,
+    /// Cycle of the last result taken.
+    last_result: Option<u64>,
     /// Bubbles after the last request so far; they count once another request follows.
     trailing_bubbles: u64,
 }
@@ -76,10 +80,13 @@ impl Counts {
         Some((last - first) as f64 / gaps as f64)
     }
 
-    /// Cycles for a million results at the rate of this run; `None` without results.
+    /// Cycles for a million results at the rate at which they came, from the first to the last: without those in which
+    /// the pipeline fills and empties. `None` for fewer than two.
     #[must_use]
     pub fn cycles_per_million(&self) -> Option<f64> {
-        (self.results > 0).then(|| self.cycles as f64 * 1e6 / self.results as f64)
+        let (first, last) = (self.first_result?, self.last_result?);
+        let gaps = self.results.checked_sub(1).filter(|&gaps| gaps > 0)?;
+        Some((last - first) as f64 * 1e6 / gaps as f64)
     }
 
     /// `under_way` is the number of requests in the pipeline before the cycle.
@@ -97,7 +104,11 @@ impl Counts {
         } else if outputs.in_ready && self.first_request.is_some() {
             self.trailing_bubbles += 1;
         }
-        self.results += u64::from(taken_from_it);
+        if taken_from_it {
+            self.results += 1;
+            self.first_result.get_or_insert(cycle.index);
+            self.last_result = Some(cycle.index);
+        }
         self.stalls += u64::from(due && !taken_from_it);
         if inputs.reset {
             self.lost_to_reset += u64::from(under_way);

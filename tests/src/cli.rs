@@ -73,7 +73,7 @@ pub struct Run {
     pub status: i32,
     /// What the command wrote to standard output.
     pub stdout: String,
-    /// What the command wrote to standard error.
+    /// What the command wrote to standard error; lines that it folded are whole.
     pub stderr: String,
 }
 
@@ -166,7 +166,7 @@ impl Bench {
             command: format!("blysk {}", arguments.join(" ")),
             status: output.status.code().expect("the command is not killed"),
             stdout: text(output.stdout),
-            stderr: text(output.stderr),
+            stderr: unfolded(&text(output.stderr)),
         };
         assert!(run.status <= 2 && !run.stderr.contains("panicked"), "{run:#?}");
         run
@@ -213,6 +213,17 @@ impl Bench {
         let after = self.tree("");
         assert!(before == after, "{run:#?}\nbefore {:?}\nafter {:?}", names(&before), names(&after));
     }
+}
+
+/// Errors as they were before they were folded.
+///
+/// # Panics
+/// When a line is wider than a terminal, and not a single long word.
+fn unfolded(stderr: &str) -> String {
+    for line in stderr.lines() {
+        assert!(line.chars().count() <= 100 || !line.trim().contains(' '), "more than 100 columns: {line}");
+    }
+    stderr.replace("\n    ", " ")
 }
 
 fn names(tree: &Tree) -> Vec<&PathBuf> {

@@ -46,8 +46,14 @@ pub struct ErrorRow {
     pub approximation_x: f64,
     /// Quantised coefficients against real ones, on all of [0, 1].
     pub coefficient_abs: f64,
+    /// The x at which `coefficient_abs` is reached, 0 to 1; for people, and in no file.
+    #[serde(skip)]
+    pub coefficient_x: f64,
     /// The integer pipeline against the ROM's function, on all of [0, 1].
     pub datapath_abs: f64,
+    /// The x at which `datapath_abs` is reached, 0 to 1; for people, and in no file.
+    #[serde(skip)]
+    pub datapath_x: f64,
     /// Rounding a real x to the input format, at its worst.
     pub input_abs: f64,
     /// The pipeline against x^n at representable x, on the epicentre.
@@ -244,7 +250,9 @@ fn error_row(design: &Design, exponent: f64, errors: &RowErrors, bound: f64) -> 
         approximation_rel: method.relative.map_or(f64::NAN, |peak| peak.error),
         approximation_x: method.absolute.x(),
         coefficient_abs: errors.coefficient.error,
+        coefficient_x: x(errors.coefficient.x),
         datapath_abs: errors.datapath.error,
+        datapath_x: x(errors.datapath.x),
         input_abs: input_quantisation(design, exponent),
         total_abs: errors.epicentre.error,
         total_x: x(errors.epicentre.x),

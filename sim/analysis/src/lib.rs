@@ -15,5 +15,6 @@ pub mod refine;
 #[cfg(feature = "figures")]
 pub mod report;
 pub mod sizing;
+pub mod source;
 pub mod stability;
 pub mod sweep;

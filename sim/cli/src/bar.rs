@@ -9,7 +9,7 @@ use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use vectors::progress::Progress;
 
@@ -42,10 +42,16 @@ impl Bar {
     pub(super) fn counting(count: Option<u64>, what: &str) -> Self {
         let Some(count) = count else { return Self(ProgressBar::hidden()) };
         let style = ProgressStyle::with_template(&format!(
-            "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {what}, {{eta}} left",
+            "{{bar:40}} {{percent:>3}} %  {{human_pos}} of {{human_len}} {what}{{left}}",
         ));
+        let left = |state: &ProgressState, text: &mut dyn std::fmt::Write| {
+            if let Some(left) = left(state.elapsed(), state.fraction()) {
+                let _ = write!(text, ", {:#} left", HumanDuration(left));
+            }
+        };
         let bar = ProgressBar::new(count);
-        Self(SHOWN.add(bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))))
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar()).with_key("left", left);
+        Self(SHOWN.add(bar.with_style(style)))
     }
 
     /// The same reader, whose bytes count.
@@ -57,6 +63,14 @@ impl Bar {
     pub(super) fn finish(&self) {
         self.0.finish_and_clear();
     }
+}
+
+/// How long the rest takes at the rate so far. Nothing is said in the first seconds, in which caches are cold and a few
+/// samples would stand for all.
+fn left(elapsed: Duration, fraction: f32) -> Option<Duration> {
+    let told = elapsed >= PATIENCE && (f32::EPSILON..1.0).contains(&fraction);
+    let left = elapsed.as_secs_f64() * (1.0 / f64::from(fraction) - 1.0);
+    told.then(|| Duration::try_from_secs_f64(left.round()).unwrap_or(Duration::MAX))
 }
 
 impl Drop for Bar {
@@ -123,4 +137,20 @@ pub(super) fn end() {
 
 fn clock() -> MutexGuard<'static, Option<Clock>> {
     CLOCK.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::left;
+    use std::time::Duration;
+
+    #[test]
+    fn the_rest_is_told_once_it_is_known() {
+        let seconds = Duration::from_secs;
+        assert_eq!(left(Duration::from_millis(1900), 0.5), None);
+        assert_eq!(left(seconds(3), 0.0), None);
+        assert_eq!(left(seconds(3), 1.0), None);
+        assert_eq!(left(seconds(3), 0.25), Some(seconds(9)));
+        assert_eq!(left(seconds(60), 0.5), Some(seconds(60)));
+    }
 }

@@ -86,6 +86,14 @@ fn over(text: &str) -> Result<Over, String> {
     }
 }
 
+/// What the columns of the ranking are, and what a verdict means.
+const COLUMNS: &str = "deg, seg: degree and number of the polynomials. cut: they end where x^n is this. below: what \
+                       answers below the cut. round: the rounding mode. real: the greatest error in real numbers. mult, \
+                       rom: bits of multipliers and of the ROM. lat: latency in cycles. CHOSEN: the least, which \
+                       follows. narrowed: widths were taken away bit by bit as far as the error allows. proved: the \
+                       widths are, and their hardware is no candidate for narrowing. no widths: none are proved to \
+                       keep what the real error leaves, or no ranks reach the clock. too far: more than allowed.";
+
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let request = Request {
         exponents: args.exponents.clone(),
@@ -111,13 +119,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     ranking(&sized.ranking).print(out, Format::Table, 5)?;
     writeln!(out)?;
-    write_folded(
-        out,
-        "real: the greatest error in real numbers. cut: the polynomial ends where x^n is this. too far: more than \
-         allowed. no widths: none are proved to keep what the real error leaves, or no ranks reach the clock. proved: \
-         the widths are, and \
-         their hardware is no candidate for narrowing.",
-    )?;
+    write_folded(out, COLUMNS)?;
     writeln!(out)?;
     write_folded(out, &summary(&request, &sized))?;
     writeln!(out)?;
@@ -179,6 +181,7 @@ fn ranking(considered: &[Considered]) -> Rows {
             CandidateFate::Refused(_) => (None, "no widths".to_owned()),
             CandidateFate::Proved(hardware) => (Some(*hardware), "proved".to_owned()),
             CandidateFate::Narrowed(hardware) => (Some(*hardware), "narrowed".to_owned()),
+            CandidateFate::Chosen(hardware) => (Some(*hardware), "CHOSEN".to_owned()),
         };
         let rounding = one.rounding.map_or("any", Rounding::short_name);
         let mut cells = vec![Cell::from(one.config.method.to_string())];

@@ -12,12 +12,16 @@ mod choice;
 mod claims;
 mod clock;
 mod coefficients;
+mod completions;
 mod configuration;
 mod coverage;
 mod design;
 mod document;
 mod evaluate;
+mod help;
+mod man;
 mod mesh;
+mod methods;
 mod out;
 mod output;
 mod pareto;
@@ -45,14 +49,20 @@ mod vectors;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use out::{Out, Outcome};
+use table::folded;
 
 /// Bit-accurate, cycle-accurate model of a specular-highlight shading pipeline.
+///
+/// The pipeline computes cos(γ)^n, the highlight of Phong shading, by a polynomial whose coefficients sit in a ROM. blysk
+/// models it bit for bit and cycle for cycle. It measures and proves the error of a configuration, searches for better
+/// ones, writes RTL with vectors and a testbench, judges what your own simulation answers, and draws with the result.
 #[derive(Parser)]
 #[command(name = "blysk", version, max_term_width = 100)]
-#[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results")]
+#[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results\n\
+                        `blysk COMMAND --help` says more of a command.")]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -83,6 +93,8 @@ enum Command {
     Specialise(specialise::Args),
     Shard(shard::Args),
     Presets(presets::Args),
+    Completions(completions::Args),
+    Man(man::Args),
 }
 
 /// Parses the command line, runs the command, and reports its errors.
@@ -92,7 +104,10 @@ pub fn main() -> ExitCode {
         let _ = writeln!(io::stderr(), "error: cannot watch for signals: {error}");
         return ExitCode::from(2);
     }
-    let cli = Cli::parse();
+    let cli = match parsed() {
+        Ok(cli) => cli,
+        Err(error) => return said(&error),
+    };
     let mut out = out::lock();
     bar::begin();
     let result = run(cli.command, &mut out).and_then(|outcome| {
@@ -105,10 +120,32 @@ pub fn main() -> ExitCode {
         Ok(Outcome::Fails) => ExitCode::from(1),
         Err(error) => {
             // Where standard error is closed, the exit status alone tells.
-            let _ = writeln!(io::stderr(), "error: {}", message(&error));
+            let _ = writeln!(io::stderr(), "{}", folded(&format!("error: {}", message(&error)), CONTINUED));
             ExitCode::from(2)
         }
     }
+}
+
+/// What the next line of an error begins with, where the error is wider than a terminal. Errors are folded in a pipe too,
+/// so that what a log has is what was seen.
+const CONTINUED: &str = "    ";
+
+fn parsed() -> Result<Cli, clap::Error> {
+    let matches = help::grouped(Cli::command()).try_get_matches()?;
+    Cli::from_arg_matches(&matches)
+}
+
+/// Says why there is nothing to run: help that was asked for, or an error of usage.
+fn said(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    let narrow: Vec<String> = text.lines().map(|line| folded(line, CONTINUED)).collect();
+    // Where nobody listens any more, the exit status alone tells. Colours are clap's.
+    let _ = if narrow.iter().any(|line| line.contains('\n')) {
+        writeln!(io::stderr(), "{}", narrow.join("\n"))
+    } else {
+        error.print()
+    };
+    ExitCode::from(error.exit_code() as u8)
 }
 
 fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
@@ -135,6 +172,8 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Specialise(args) => specialise::run(&args, out),
         Command::Shard(args) => shard::run(&args, out),
         Command::Presets(args) => presets::run(&args, out),
+        Command::Completions(args) => completions::run(&args, Cli::command(), out),
+        Command::Man(args) => man::run(&args, Cli::command(), out),
     }
 }
 

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use clap::{Args as ClapArgs, ValueEnum};
+use hw_model::config::Config;
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
+use vectors::configuration_file;
 use vectors::text_file::{self, PARETO_TABLE, SYNTHESIS_TABLE, foreign_separator};
 
 use super::bar::Bar;
@@ -24,7 +26,8 @@ use analysis::report::pareto as files;
 
 /// Compare every method and preset by error and cost, and tell which are dominated.
 ///
-/// Methods in f32 and f64, powf, repeated squaring, tables of straight lines, and every preset bit for bit: the
+/// Methods in f32 and f64, powf, repeated squaring, tables of straight lines, every preset and your own configurations
+/// (--config) bit for bit: the
 /// greatest and the RMS error over every representable x of every exponent (minutes of work; less with
 /// --every, --input or --exponents), run time side by side in this process, and the hardware's latency,
 /// multipliers and ROM. A contender is dominated when another is nowhere worse and somewhere better. With
@@ -40,6 +43,9 @@ pub(super) struct Args {
     /// The format of x, for presets and processors alike.
     #[arg(long, value_name = "FORMAT", default_value = "UQ1.23")]
     input: QFormat,
+    /// A configuration of your own beside the presets, with the exponents and the input of all; may be repeated.
+    #[arg(long, value_name = "FILE")]
+    config: Vec<PathBuf>,
     /// Look at every K-th x only; every output then says so.
     #[arg(long, value_name = "K", default_value_t = 1,
           value_parser = clap::value_parser!(u64).range(1..))]
@@ -87,16 +93,18 @@ const SYNTH: &str = "results/synth/synth.csv";
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let inputs = Inputs::new(args.input, args.exponents.clone(), args.every)?;
+    let own = args.config.iter().map(|path| configuration_file::read(path)).collect::<Result<Vec<_>, _>>()?;
     if let Some(kept) = &args.check {
-        return check(kept, &inputs, out);
+        return check(kept, &inputs, &own, out);
     }
     let (synthesis, origin) = synthesised(args)?;
     // Made before the work, so that an unwritable place is found at once.
     let synth = args.synth.clone().unwrap_or_else(|| PathBuf::from(SYNTH));
-    let set = args.out.as_deref().map(|out| output::set(out, "pareto", &[synth], files::TABLES)).transpose()?;
+    let read = [args.config.as_slice(), &[synth]].concat();
+    let set = args.out.as_deref().map(|out| output::set(out, "pareto", &read, files::TABLES)).transpose()?;
     let timing = (!args.no_timing).then_some(TimingOptions { rounds: args.rounds, seed: args.seed });
     let bar = Bar::new(Some(inputs.count()));
-    let report = compare(&inputs, timing, &synthesis, &bar)?;
+    let report = compare(&inputs, &own, timing, &synthesis, &bar)?;
     bar.finish();
     let mut names = Vec::new();
     if let Some(mut set) = set {
@@ -148,7 +156,7 @@ fn refuse_foreign(text: &str, path: &Path) -> anyhow::Result<()> {
     }
 }
 
-fn check(path: &Path, inputs: &Inputs, out: &mut Out) -> anyhow::Result<Outcome> {
+fn check(path: &Path, inputs: &Inputs, own: &[Config], out: &mut Out) -> anyhow::Result<Outcome> {
     let shown = path.display();
     let text = text_file::read(path, PARETO_TABLE)?;
     refuse_foreign(&text, path)?;
@@ -157,9 +165,9 @@ fn check(path: &Path, inputs: &Inputs, out: &mut Out) -> anyhow::Result<Outcome>
         bail!("{shown} has no contender");
     }
     let bar = Bar::new(Some(inputs.count()));
-    let made: ParetoReport = compare(inputs, None, &[], &bar)?;
+    let made: ParetoReport = compare(inputs, own, None, &[], &bar)?;
     bar.finish();
-    let contenders = Contenders::new(inputs)?.list;
+    let contenders = Contenders::new(inputs, own)?.list;
     let found = differences(&kept, &made, &contenders, inputs);
     for line in &found {
         write_folded(out, line)?;

@@ -128,6 +128,20 @@ fn errors(report: &ParetoReport) -> Section {
     Section { title, rows, notes: Vec::new() }
 }
 
+/// The same where times count: `~` before one that is as quick within the spread, and more exact.
+fn standing_in_time(
+    timing: &TimingReport,
+    row: &TimingRow,
+    way: &Way,
+    standing: (Option<bool>, Option<&String>),
+) -> Cell {
+    let by = standing.1.and_then(|name| timing.rows.iter().find(|other| other.contender == *name));
+    match by.filter(|by| (way.same)(row, by)) {
+        Some(by) => Cell::from(format!("~ {}", by.contender)),
+        None => self::standing(standing.0, standing.1),
+    }
+}
+
 /// `FRONT`, or the contender that dominates.
 fn standing(front: Option<bool>, dominated_by: Option<&String>) -> Cell {
     match (front, dominated_by) {
@@ -139,6 +153,12 @@ fn standing(front: Option<bool>, dominated_by: Option<&String>) -> Cell {
 
 /// What one way to be asked says of a contender: median, quartiles, and the two standings.
 type Timed<'a> = (f64, [f64; 2], [(Option<bool>, Option<&'a String>); 2]);
+
+/// A way to be asked: what it says of a contender, and whether the times of two are the same.
+struct Way {
+    of: fn(&TimingRow) -> Option<Timed<'_>>,
+    same: fn(&TimingRow, &TimingRow) -> bool,
+}
 
 fn block(row: &TimingRow) -> Option<Timed<'_>> {
     Some((
@@ -164,16 +184,16 @@ fn mixed(row: &TimingRow) -> Option<Timed<'_>> {
 
 fn times(report: &ParetoReport, timing: &TimingReport) -> [Section; 2] {
     let seen = if report.exhaustive { "" } else { " (errors SAMPLED)" };
-    let section = |what: &str, of: fn(&TimingRow) -> Option<Timed<'_>>, notes: Vec<String>| {
+    let section = |what: &str, way: Way, notes: Vec<String>| {
         let mut rows = Rows::new(&["contender", "ns/sample", "quartiles", "epicentre", "[0, 1]"]);
         for row in &timing.rows {
-            let Some((median, [low, high], [epicentre, whole])) = of(row) else { continue };
+            let Some((median, [low, high], [epicentre, whole])) = (way.of)(row) else { continue };
             rows.push(vec![
                 Cell::from(row.contender.clone()),
                 Cell::from(format!("{median:.2}")),
                 Cell::from(format!("{low:.2}-{high:.2}")),
-                standing(epicentre.0, epicentre.1),
-                standing(whole.0, whole.1),
+                standing_in_time(timing, row, &way, epicentre),
+                standing_in_time(timing, row, &way, whole),
             ]);
         }
         Section { title: format!("Run time against error, {what}{seen}"), rows, notes }
@@ -181,12 +201,17 @@ fn times(report: &ParetoReport, timing: &TimingReport) -> [Section; 2] {
     let TimingReport { rounds, seed, samples, block: length, .. } = timing;
     let note = format!(
         "Median of {rounds} rounds, everybody in turn over the same {samples} random x (seed {seed}), one thread. \
-         FRONT: nobody else is as quick and as exact and better in one; < X: X is. The times are those of one \
-         machine. Of the presets it is the model that is timed, not the hardware."
+         Times are told apart where their quartiles do not overlap. FRONT: nobody else is quicker and as exact, or \
+         as quick and more exact. < X: X is quicker; ~ X: X is as quick within the spread, and more exact. The \
+         times are those of one machine. Of the presets it is the model that is timed, not the hardware."
     );
     [
-        section(&format!("{length} samples of one exponent"), block, Vec::new()),
-        section("an exponent for each sample", mixed, vec![note]),
+        section(
+            &format!("{length} samples of one exponent"),
+            Way { of: block, same: TimingRow::same_block_time },
+            Vec::new(),
+        ),
+        section("an exponent for each sample", Way { of: mixed, same: TimingRow::same_mixed_time }, vec![note]),
     ]
 }
 

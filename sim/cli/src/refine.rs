@@ -23,9 +23,9 @@ use analysis::refine::{Found, Options, Range, Refined, refine, samples};
 /// Row by row, and segment by segment, the integers of the coefficients are judged by the pipeline's own
 /// arithmetic at every representable x of the range, against the correctly rounded x^n, until no neighbour
 /// within --reach is better. The configuration that --out writes has the steps from the rounded coefficients in
-/// `coefficient_steps`, and states its widths, so that the steps keep their meaning. The table shows the
-/// greatest error before and after, the greatest error of the method with real coefficients, and the differences
-/// between these in output ulp. All 256 rows of preset precise take half a minute of one core.
+/// `coefficient_steps`, and states its widths, so that the steps keep their meaning. A summary is printed, and with
+/// --rows a table of the greatest error before and after, the greatest error of the method with real coefficients, and
+/// the differences between these in output ulp; csv and json are that table. All 256 rows of preset precise take half a minute of one core.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk refine --preset compact --exponents 64,128 --out refined.json\n          \
                         blysk refine --config mine.json --format csv")]
@@ -50,6 +50,9 @@ pub(super) struct Args {
         value_parser = clap::value_parser!(i32).range(0..=256)
     )]
     reach: i32,
+    /// Print a row for each exponent and segment below the summary.
+    #[arg(long)]
+    rows: bool,
     /// How to print what was found.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -84,11 +87,16 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     if output::fill(file, refined.config().to_json())? {
         return Ok(Outcome::Good);
     }
-    let ulp = design.config().output.ulp();
-    rows(&refined.found, ulp).print(out, args.format, 6)?;
-    if args.format == Format::Table {
+    let rows = || rows(&refined.found, design.config().output.ulp());
+    if args.format != Format::Table {
+        rows().print(out, args.format, 6)?;
+    } else {
         summary(&design, &refined, out)?;
         at_the_reach(&refined, args.reach, out)?;
+        if args.rows {
+            writeln!(out)?;
+            rows().print(out, args.format, 6)?;
+        }
         if let Some(path) = &args.out {
             writeln!(out, "\nwritten to {}", path.display())?;
         }
@@ -147,7 +155,6 @@ fn summary(design: &Design, refined: &Refined, out: &mut Out) -> anyhow::Result<
     };
     let (first, second) = (digits(before.before, 6), digits(after.after, 6));
     let moved = refined.found.iter().filter(|p| p.after < p.before).count();
-    writeln!(out)?;
     write_folded(
         out,
         &format!(

@@ -28,8 +28,9 @@ use scenes::scene::Scene;
 /// Spheres, planes and meshes are hit by one ray for each pixel; every x goes through the data path, bit for bit,
 /// grouped by exponent, and is compared with x^n. With --out, the directory gets both pictures, a heat map of
 /// their difference in display codes, the methods side by side, and the figures as render.csv and render.json. The
-/// table has the samples (pixels times lights) of each material by region, and the greatest error of their
-/// highlights in display codes of linear light. Software leaves out samples that face away or lie below the cut: the
+/// table has the samples (pixels times lights) of each material: on the epicentre, below it where polynomial or divider
+/// answer, zero, facing away; and the greatest error of their highlights in display codes of linear light, before
+/// colours and transfer curve. Software leaves out samples that face away or lie below the cut: the
 /// highlights are computed with and without these samples, compared, and timed. Exit status: 0 when both are the same,
 /// 1 when they differ, 2 for an error.
 #[derive(ClapArgs)]
@@ -48,7 +49,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
     /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays
-    /// with x^n of the scene's own n, so that the column `codes` tells what each material pays.
+    /// with x^n of the scene's own n, so that the column `linear codes` tells what each material pays.
     #[arg(long)]
     nearest: bool,
     /// The clock of the hardware, from which frames a second follow, in MHz.
@@ -254,7 +255,7 @@ fn nearest(scene: &Scene, pipeline: &ScenePipeline<'_>, out: &mut Out) -> anyhow
 }
 
 fn materials(report: &RenderReport) -> Rows {
-    let mut rows = Rows::new(&["material", "n", "samples", "epicentre", "tail", "zero", "away", "codes"]);
+    let mut rows = Rows::new(&["material", "n", "samples", "epicentre", "below it", "zero", "away", "linear codes"]);
     for row in &report.materials {
         let mut cells = vec![row.material.as_str().into(), Cell::Exponent(row.exponent)];
         cells.push(Cell::Integer(row.samples as i64));

@@ -179,15 +179,18 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
         worst.n,
         digits(worst.total_x, 12)
     )?;
-    writeln!(out, "  of it, at most:")?;
-    writeln!(
-        out,
-        "  method                 {} at x = {}",
-        percent(worst.approximation_abs),
-        digits(worst.approximation_x, 12)
-    )?;
-    writeln!(out, "  ROM coefficients       {}", percent(worst.coefficient_abs))?;
-    writeln!(out, "  data path              {}", percent(worst.datapath_abs))?;
+    writeln!(out, "  of it, each at most, and each where it is greatest:")?;
+    let parts = [
+        ("method", worst.approximation_abs, worst.approximation_x),
+        ("ROM coefficients", worst.coefficient_abs, worst.coefficient_x),
+        ("data path", worst.datapath_abs, worst.datapath_x),
+    ];
+    for (name, error, x) in parts {
+        writeln!(out, "  {name:<22} {} at x = {}", percent(error), digits(x, 12))?;
+    }
+    if parts.iter().any(|&(_, error, _)| error > worst.total_abs) {
+        writeln!(out, "  (a part is greater than the total: it is so at another x, or others take from it there)")?;
+    }
     writeln!(out, "beside it, input         {} (half an ulp of x where x^n is steepest)", percent(worst.input_abs))?;
     if let Some(method) = greatest(report, |row| row.approximation_abs) {
         writeln!(

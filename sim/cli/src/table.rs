@@ -113,20 +113,33 @@ pub(super) fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
+/// Text whose lines are at most [`TERMINAL_WIDTH`] columns wide: a wider one goes on in further lines, each with an
+/// indent. A longer word has a line of its own.
+pub(super) fn folded(text: &str, indent: &str) -> String {
+    text.split('\n').map(|line| folded_line(line, indent)).collect::<Vec<_>>().join("\n")
+}
+
+fn folded_line(text: &str, indent: &str) -> String {
+    let width = |text: &str| text.chars().count();
+    let (mut lines, mut begun) = (Vec::new(), false);
+    let words = text.trim_start();
+    let mut line = text[..text.len() - words.len()].to_owned();
+    for word in words.split(' ') {
+        if begun && width(&line) + 1 + width(word) > usize::from(TERMINAL_WIDTH) {
+            lines.push(std::mem::replace(&mut line, indent.to_owned()));
+            begun = false;
+        }
+        line.push_str(if begun { " " } else { "" });
+        line.push_str(word);
+        begun = true;
+    }
+    lines.push(line);
+    lines.join("\n")
+}
+
 /// Writes text on lines of at most [`TERMINAL_WIDTH`] columns; a longer word has a line of its own.
 pub(super) fn write_folded(out: &mut dyn Write, text: &str) -> std::io::Result<()> {
-    let mut column = 0;
-    for word in text.split(' ') {
-        let width = word.chars().count();
-        if column > 0 && column + 1 + width > usize::from(TERMINAL_WIDTH) {
-            writeln!(out)?;
-            column = 0;
-        }
-        let space = if column > 0 { " " } else { "" };
-        write!(out, "{space}{word}")?;
-        column += space.len() + width;
-    }
-    writeln!(out)
+    writeln!(out, "{}", folded(text, ""))
 }
 
 /// Rows under named columns.
@@ -235,6 +248,17 @@ mod tests {
         }
         assert_eq!(digits(0.005065107904901528, 6), "0.00506511");
         assert_eq!(digits(999_999.7, 6), "1e6");
+    }
+
+    #[test]
+    fn a_wide_line_goes_on_below() {
+        let words = vec!["twelve chars"; 20].join(" ");
+        let folded = folded(&format!("  a name  {words}\nshort"), "    ");
+        let lines: Vec<&str> = folded.lines().collect();
+        assert!(lines.len() == 4 && lines.iter().all(|line| line.len() <= 100), "{folded}");
+        assert!(lines[0].starts_with("  a name  twelve") && lines[1].starts_with("    ") && lines[3] == "short");
+        let long = "x".repeat(120);
+        assert_eq!(super::folded(&format!("error: {long} end"), "    "), format!("error:\n    {long}\n    end"));
     }
 
     proptest! {

@@ -48,7 +48,7 @@ fn fields_that_are_unknown_missing_or_of_another_kind() {
         ("\"method\"", "\"methods\"", &["`methods`", "`method`", "line 4 column 11"][..]),
         ("\"tail\"", "\"tail_policy\"", &["`tail_policy`", "`tail`", "line 9 column 15"]),
         ("  \"method\": \"hermite\",\n", "", &["missing field `method`"]),
-        ("\"hermite\"", "\"hermit\"", &["`hermit`", "`hermite`", "line 4 column"]),
+        ("\"hermite\"", "\"hermit\"", &["`hermit`", "`hermite`, ", "`schlick` at line 4 column"]),
         ("\"hermite\"", "3", &["`\"method\": 3`", "line 4 column 13"]),
         ("\"power\"", "\"horner\"", &["`horner`", "`power`", "`centred`", "line 8 column"]),
         ("\"rational\"", "\"none\"", &["`none`", "`zero`", "line 9 column"]),

@@ -79,7 +79,7 @@ fn a_wrong_intensity_is_shown_with_its_vector() {
             &format!("intensity: got {got} ("),
             &format!("expected {} ({})", row["intensity_hex"], row["intensity_real"]),
             "2 of 64 vectors fail",
-            "2 depart first at clamp",
+            "2 differ at the ports",
             "Columns of registers",
         ],
     );

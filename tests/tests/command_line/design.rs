@@ -231,3 +231,24 @@ fn what_cannot_be_had_is_refused() {
     bench.refused(&format!("{design} --output UQ1.8 --error 2"), &["--error", "at most 1"]);
     bench.refused(&format!("{design} --output UQ1.8 --error 0.01 --range 1.5"), &["--range", "epicentre"]);
 }
+
+/// The one that is printed is marked in the ranking, and the configuration has a name after what was asked.
+#[test]
+fn the_chosen_one_is_marked_and_named() {
+    let bench = bench!();
+    let text = bench.good("design --exponents 1..=8 --input UQ1.10 --output UQ1.10 --error 0.01 --out new.json");
+    let chosen: Vec<&str> = text.lines().filter(|line| line.ends_with("CHOSEN")).collect();
+    assert_eq!(chosen.len(), 1, "{text}");
+    assert_eq!(text.lines().nth(1), Some(chosen[0]), "{text}");
+    let config = Config::from_json(&bench.text("new.json")).unwrap();
+    assert_eq!(config.name, "designed_UQ1p10_UQ1p10_0p01");
+    assert!(chosen[0].starts_with(&config.method.to_string()), "{text}");
+    let bits = chosen[0].split_whitespace().rev().nth(3).unwrap();
+    let flat = text.replace('\n', " ");
+    assert!(flat.contains(&format!(": {bits} multiplier bits, ")), "{bits}: {text}");
+    for column in
+        text.lines().next().unwrap().split_whitespace().filter(|word| !["method", "form", "verdict"].contains(word))
+    {
+        assert!(flat.contains(&format!("{column}: ")) || flat.contains(&format!("{column}, ")), "{column}: {text}");
+    }
+}

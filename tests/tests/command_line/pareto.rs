@@ -399,3 +399,61 @@ fn what_cannot_be_compared_is_refused() {
     refused("--no-timing --synth semicolon.csv --out new", &["semicolon.csv:1:", "separated by `;`"]);
     refused("--check pareto.csv --out new", &["--check", "--out"]);
 }
+
+/// Configurations of one's own stand beside the presets, with the inputs of all, and are compared with them.
+#[test]
+fn own_configurations_are_contenders() {
+    let bench = bench!();
+    let shown = bench.good("presets show compact");
+    bench.write("mine.json", shown.replacen("\"compact\"", "\"mine\"", 1).replace("hermite", "tangent"));
+    bench.write("same.json", shown);
+    let rows = csv_rows(&bench.good(&format!("{SMALL} --config mine.json --config same.json --format csv")));
+    let of = |name: &str| rows.iter().find(|row| row["contender"] == name).unwrap_or_else(|| panic!("{name}"));
+    let (mine, same, preset) = (of("config mine"), of("config compact"), of("preset compact"));
+    for column in ["whole_worst", "epicentre_rms", "latency", "multiplier_bits", "storage_bits"] {
+        assert_eq!(same[column], preset[column], "{column}");
+    }
+    assert!(mine["whole_worst"] != preset["whole_worst"] && mine["kind"] == "hardware", "{mine:?}");
+    let alone = csv_rows(&bench.good(&format!("{SMALL} --format csv")));
+    assert_eq!(rows.len(), alone.len() + 2);
+    bench.write("kept.csv", bench.good(&format!("{SMALL} --config mine.json --format csv")));
+    let inputs = "--input UQ1.10 --exponents 1..=8";
+    let held = bench.good(&format!("pareto {inputs} --config mine.json --check kept.csv"));
+    assert!(held.contains("holds"), "{held}");
+    assert_eq!(bench.run(&format!("pareto {inputs} --check kept.csv")).status, 1);
+    bench.refused(&format!("{SMALL} --config mine.json --config mine.json"), &["two configurations", "mine"]);
+    bench.refused(&format!("{SMALL} --config nowhere.json --out new"), &["nowhere.json"]);
+    bench.refused(&format!("{SMALL} --config mine.json --out mine.json"), &["in the way"]);
+}
+
+/// A time is less than another where their quartiles are apart.
+#[test]
+fn times_within_the_spread_are_the_same() {
+    let bench = bench!();
+    let _said = bench.good("pareto --input UQ1.10 --exponents 2,5,8 --rounds 15 --out timed");
+    let (errors, times) = (csv_rows(&bench.text("timed/pareto.csv")), csv_rows(&bench.text("timed/pareto_timing.csv")));
+    let mut compared = 0;
+    for way in ["block", "mixed"] {
+        let all: Vec<_> = times
+            .iter()
+            .zip(&errors)
+            .filter(|(time, _)| !time[&format!("{way}_median")].is_empty())
+            .map(|(time, error)| {
+                let ends = ["lower", "upper"].map(|end| number(time, &format!("{way}_{end}_quartile")));
+                (time, ends, number(error, "whole_worst"))
+            })
+            .collect();
+        for (row, own, error) in &all {
+            let above = |(_, ends, other): &&(_, [f64; 2], f64)| match ends[0] <= own[1] && own[0] <= ends[1] {
+                true => other < error,
+                false => ends[1] < own[0] && other <= error,
+            };
+            let by = &row[&format!("{way}_whole_dominated_by")];
+            assert_eq!(all.iter().any(|other| above(&other)), !by.is_empty(), "{way}: {row:?}");
+            let named = all.iter().find(|(time, ..)| time["contender"] == *by);
+            assert!(named.is_none_or(|named| above(&named)), "{way}: {row:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 40, "{compared}");
+}

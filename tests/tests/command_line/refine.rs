@@ -39,6 +39,11 @@ fn the_table_is_for_people_and_the_same_every_time() {
     let text = bench.good("refine --config fitted.json --exponents 5 --out one.json");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
     assert!(text.contains("mean gap") && text.contains("written to one.json"), "{text}");
+    assert!(!text.contains("gap_before"), "{text}");
+    // The rows come on demand, below the summary.
+    let rows = bench.good("refine --config fitted.json --exponents 5 --out one.json --rows");
+    let (summary, table) = rows.split_once("\n\n").unwrap();
+    assert!(text.starts_with(summary) && table.contains("gap_before"), "{rows}");
     let first = bench.text("one.json");
     assert_eq!(text, bench.good("refine --config fitted.json --exponents 5 --out one.json"));
     assert_eq!(first, bench.text("one.json"));

@@ -90,11 +90,11 @@ fn figures_are_those_of_the_pictures() {
         assert!((of("/picture/psnr") - 20.0 * (greatest / square.sqrt()).log10()).abs() < 1e-9);
         let rows = csv_rows(&bench.text("r/render.csv"));
         let sum = |column: &str| rows.iter().map(|row| number(row, column)).sum::<f64>();
-        let parts = ["epicentre", "tail", "zero", "facing_away"].map(sum);
+        let parts = ["epicentre", "below_epicentre", "zero", "facing_away"].map(sum);
         assert_eq!(parts.iter().sum::<f64>(), sum("samples"));
         assert_eq!(sum("samples") + of("/background_pixels"), 120.0 * 90.0);
         assert_eq!(of("/every/requests"), sum("samples"));
-        assert_eq!(of("/needed/requests"), sum("epicentre") + sum("tail"));
+        assert_eq!(of("/needed/requests"), sum("epicentre") + sum("below_epicentre"));
         let latency = of("/needed/cycles") - of("/needed/requests");
         assert!((6.0..40.0).contains(&latency), "{latency}");
         assert!((of("/needed/frames_per_second") * of("/needed/cycles") - 50e6).abs() < 1.0);

@@ -216,3 +216,23 @@ pub(crate) fn parts_bound_the_total(row: &BTreeMap<String, String>) {
         assert!((0.0..=1.0).contains(&part(place)), "{row:?}");
     }
 }
+
+/// Each part has its x, and one that is greater than the total is explained.
+#[test]
+fn parts_are_greatest_at_an_x_of_their_own() {
+    let bench = bench!();
+    let mut explained = 0;
+    for preset in ["paper", "compact", "precise", "tangent"] {
+        let text = bench.run(&format!("report --preset {preset}")).stdout;
+        let percent = |name: &str| -> f64 {
+            let line = text.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+            assert!(line.contains(" % at ") && line.contains("x = "), "{line}");
+            line.split(" %").next().unwrap().split_whitespace().last().unwrap().parse().unwrap()
+        };
+        let total = percent("worst total error");
+        let above = ["method  ", "ROM coefficients", "data path"].into_iter().any(|part| percent(part) > total);
+        assert_eq!(above, text.contains("(a part is greater than the total"), "{text}");
+        explained += u32::from(above);
+    }
+    assert!(explained > 0, "no preset has such a part");
+}

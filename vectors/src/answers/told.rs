@@ -50,7 +50,11 @@ impl Verdict {
     fn summary(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} of {} vectors fail", self.failing(), self.vectors)?;
         for (rank, count) in &self.departures {
-            write!(f, "\n  {count} depart first at {rank}")?;
+            // A log of ports alone shows the last rank, whatever went wrong before.
+            match self.registers {
+                0 => write!(f, "\n  {count} differ at the ports")?,
+                _ => write!(f, "\n  {count} depart first at {rank}")?,
+            }
         }
         if self.unanswered > 0 {
             write!(f, "\n  {} have no answer", self.unanswered)?;

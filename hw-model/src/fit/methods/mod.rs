@@ -211,6 +211,11 @@ impl Method {
         Self::ALL.map(Self::name).join(", ")
     }
 
+    /// The methods that hardware can be built for, in the same order.
+    pub fn of_hardware() -> impl Iterator<Item = Self> {
+        Self::ALL.into_iter().filter(|method| !matches!(method.capabilities().hardware, Hardware::None { .. }))
+    }
+
     /// True where the hardware has a polynomial.
     #[must_use]
     pub const fn has_polynomial(self) -> bool {

@@ -210,9 +210,9 @@ mod tests {
 
     #[test]
     fn what_was_measured_holds_and_what_was_not_does_not() {
-        let all = compare(&inputs(1), None, &[], &Quiet).unwrap();
-        let part = compare(&inputs(7), None, &[], &Quiet).unwrap();
-        let contenders = Contenders::new(&inputs(1)).unwrap().list;
+        let all = compare(&inputs(1), &[], None, &[], &Quiet).unwrap();
+        let part = compare(&inputs(7), &[], None, &[], &Quiet).unwrap();
+        let contenders = Contenders::new(&inputs(1), &[]).unwrap().list;
         let see = |kept: &[ContenderRow]| differences(kept, &part, &contenders, &inputs(7));
         assert_eq!(see(&all.contenders), Vec::<String>::new());
         for (spoil, said) in [
@@ -238,8 +238,8 @@ mod tests {
 
     #[test]
     fn mean_squares_are_checked_where_the_inputs_are_the_same() {
-        let all = compare(&inputs(1), None, &[], &Quiet).unwrap();
-        let contenders = Contenders::new(&inputs(1)).unwrap().list;
+        let all = compare(&inputs(1), &[], None, &[], &Quiet).unwrap();
+        let contenders = Contenders::new(&inputs(1), &[]).unwrap().list;
         assert_eq!(not_checked(&all.contenders, &inputs(1)), None);
         assert!(not_checked(&all.contenders, &inputs(7)).unwrap().contains("whole_rms"));
         for spoil in [

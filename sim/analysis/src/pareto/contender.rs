@@ -1,7 +1,7 @@
 //! What is compared: methods as a processor computes them, what a processor has beside them, and the
 //! presets bit for bit.
 
-use hw_model::config::ConfigError;
+use hw_model::config::{Config, ConfigError};
 use hw_model::datapath::Block;
 use hw_model::design::{Design, DesignError};
 use hw_model::fit::minimax::{Fitted, Range, segments};
@@ -30,18 +30,21 @@ pub enum ContenderError {
     #[error(transparent)]
     Fit(#[from] FitError),
     /// A preset that does not parse.
-    #[error("preset {name}: {source}")]
+    #[error("{name}: {source}")]
     Config {
-        /// The name of the preset.
-        name: &'static str,
+        /// The preset, such as `preset paper`.
+        name: String,
         /// What is wrong with the preset's JSON.
         source: ConfigError,
     },
-    /// A preset that gives no hardware for these inputs.
-    #[error("preset {name} with the input {input} and the exponents {exponents}: {source}")]
+    /// Two configurations of one name, which no table could tell apart.
+    #[error("two configurations have the name {0}; give each a \"name\" of its own")]
+    Twice(String),
+    /// A preset or configuration that gives no hardware for these inputs.
+    #[error("{name} with the input {input} and the exponents {exponents}: {source}")]
     Design {
-        /// The name of the preset.
-        name: &'static str,
+        /// The contender, such as `preset paper` or `config mine`.
+        name: String,
         /// The format of x.
         input: String,
         /// The list of exponents.
@@ -143,18 +146,20 @@ pub(super) struct Work {
 /// Everything that is compared, and what is left out with the reason for it.
 #[derive(Debug)]
 pub struct Contenders {
-    /// Software first, in the order of the methods; then the presets.
+    /// Software first, in the order of the methods; then the presets; then the configurations of the user.
     pub list: Vec<Contender>,
     /// Contenders that cannot take part, each with the reason in a sentence.
     pub left_out: Vec<String>,
 }
 
 impl Contenders {
-    /// All of them for these inputs.
+    /// All of them for these inputs; `own` are configurations beside the presets, of which input and exponents are those
+    /// of all.
     ///
     /// # Errors
-    /// When an exponent is out of range, or a preset gives no hardware for these inputs.
-    pub fn new(inputs: &Inputs) -> Result<Self, ContenderError> {
+    /// When an exponent is out of range, a preset or configuration gives no hardware for these inputs, or two
+    /// configurations have one name.
+    pub fn new(inputs: &Inputs, own: &[Config]) -> Result<Self, ContenderError> {
         let exponents = inputs.exponents.as_slice();
         let mut list = Vec::new();
         for method in Method::ALL {
@@ -170,7 +175,14 @@ impl Contenders {
             left_out.push(format!("powers: repeated squaring needs integers up to {}", u32::MAX));
         }
         for preset in presets::ALL {
-            list.push(hardware(preset, inputs)?);
+            list.push(hardware_of_preset(preset, inputs)?);
+        }
+        for config in own {
+            let contender = hardware(format!("config {}", config.name), config.clone(), inputs)?;
+            if list.iter().any(|other| other.name == contender.name) {
+                return Err(ContenderError::Twice(config.name.clone()));
+            }
+            list.push(contender);
         }
         Ok(Self { list, left_out })
     }
@@ -223,22 +235,24 @@ fn software(family: &str, what: &str, engine: Engine) -> Contender {
     }
 }
 
-fn hardware(preset: Preset, inputs: &Inputs) -> Result<Contender, ContenderError> {
-    let name = preset.name;
-    let mut config = preset.config().map_err(|source| ContenderError::Config { name, source })?;
+fn hardware_of_preset(preset: Preset, inputs: &Inputs) -> Result<Contender, ContenderError> {
+    let name = format!("preset {}", preset.name);
+    match preset.config() {
+        Ok(config) => hardware(name, config, inputs),
+        Err(source) => Err(ContenderError::Config { name, source }),
+    }
+}
+
+/// The contender of this name, with the exponents and the input of all.
+fn hardware(name: String, mut config: Config, inputs: &Inputs) -> Result<Contender, ContenderError> {
     config.exponents = inputs.exponents.clone();
     config.input = inputs.format;
-    let what = config.description.clone();
+    let (what, family) = (config.description.clone(), config.name.clone());
     let design = Design::new(config).map_err(|source| ContenderError::Design {
-        name,
+        name: name.clone(),
         input: inputs.format.to_string(),
         exponents: inputs.exponents.to_string(),
         source: Box::new(source),
     })?;
-    Ok(Contender {
-        name: format!("preset {name}"),
-        family: name.to_owned(),
-        what,
-        engine: Engine::Hardware(Box::new(design)),
-    })
+    Ok(Contender { name, family, what, engine: Engine::Hardware(Box::new(design)) })
 }

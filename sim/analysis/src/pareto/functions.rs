@@ -43,7 +43,7 @@ real!(f32, 32);
 real!(f64, 64);
 
 /// A function of x with its constants.
-pub(super) trait ContenderRow<T> {
+pub(crate) trait ContenderRow<T> {
     fn at(&self, x: T) -> T;
 }
 
@@ -97,7 +97,11 @@ pub struct RationalRow<T> {
 
 impl<T: Real> RationalRow<T> {
     pub(super) fn new(rational: &Rational) -> Self {
-        Self { at_one: T::nearest(rational.at_one), b: T::nearest(rational.b) }
+        Self::of(T::nearest(rational.at_one), T::nearest(rational.b))
+    }
+
+    pub(crate) const fn of(at_one: T, b: T) -> Self {
+        Self { at_one, b }
     }
 }
 

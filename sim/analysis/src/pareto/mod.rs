@@ -17,13 +17,14 @@ pub mod check;
 pub mod contender;
 mod error;
 pub(crate) mod front;
-mod functions;
+pub(crate) mod functions;
 pub mod inputs;
 mod kernel;
 pub mod synthesis;
 mod table;
 pub mod timing;
 
+use hw_model::config::Config;
 use hw_model::fit::FitError;
 use thiserror::Error;
 
@@ -60,17 +61,19 @@ pub struct TimingOptions {
     pub seed: u64,
 }
 
-/// Measures every contender. `synthesis` are the lines of `synth.csv`, where there are any.
+/// Measures every contender. `own` are configurations beside the presets, and `synthesis` the lines of `synth.csv`,
+/// where there are any.
 ///
 /// # Errors
 /// When a contender cannot be made for these inputs, or gives other values in the timed loops than were measured.
 pub fn compare(
     inputs: &Inputs,
+    own: &[Config],
     timing: Option<TimingOptions>,
     synthesis: &[Synthesis],
     progress: &dyn Progress,
 ) -> Result<ParetoReport, ParetoError> {
-    let Contenders { list, left_out } = Contenders::new(inputs)?;
+    let Contenders { list, left_out } = Contenders::new(inputs, own)?;
     let errors = error::errors(&list, inputs, &inputs.epicentres()?, progress);
     let timing = match timing {
         None => None,

@@ -4,10 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::contender::Contender;
 use super::error::{ContenderErrors, Errors};
-use super::front::dominators;
+use super::front::{Timed, dominators, dominators_in_time, overlap};
 use super::inputs::Inputs;
 use super::synthesis::Synthesis;
-use super::timing::ContenderTimes;
+use super::timing::{ContenderTimes, Times};
 use crate::hardware_cost::HardwareCost;
 
 /// One contender: a line of `pareto.csv`. Errors are fractions of full intensity.
@@ -80,7 +80,7 @@ pub struct TimingRow {
     pub mixed_upper_quartile: Option<f64>,
     /// The time of the quickest round.
     pub mixed_least: Option<f64>,
-    /// Not dominated in time over blocks and in error on the epicentre.
+    /// Not dominated in time over blocks and in error on the epicentre; times whose quartiles overlap are the same.
     pub block_epicentre_front: Option<bool>,
     /// The contender that dominates it, if one does.
     pub block_epicentre_dominated_by: Option<String>,
@@ -96,6 +96,22 @@ pub struct TimingRow {
     pub mixed_whole_front: Option<bool>,
     /// The contender that dominates it, if one does.
     pub mixed_whole_dominated_by: Option<String>,
+}
+
+impl TimingRow {
+    /// Whether the times of two contenders over blocks are the same within their quartiles.
+    #[must_use]
+    pub fn same_block_time(&self, other: &Self) -> bool {
+        let quartiles = |row: &Self| [row.block_lower_quartile, row.block_upper_quartile];
+        overlap(quartiles(self), quartiles(other))
+    }
+
+    /// The same over mixed exponents; not where one has no such time.
+    #[must_use]
+    pub fn same_mixed_time(&self, other: &Self) -> bool {
+        let quartiles = |row: &Self| Some([row.mixed_lower_quartile?, row.mixed_upper_quartile?]);
+        quartiles(self).zip(quartiles(other)).is_some_and(|(one, other)| overlap(one, other))
+    }
 }
 
 /// Run times: what depends on the machine.
@@ -142,9 +158,13 @@ pub struct ParetoReport {
 type Standing = (Option<bool>, Option<String>);
 
 /// The standing of every contender that has these coordinates.
-fn standings<const AXES: usize>(names: &[String], points: &[Option<[f64; AXES]>]) -> Vec<Standing> {
+fn standings<P: Copy>(
+    names: &[String],
+    points: &[Option<P>],
+    dominators: fn(&[P]) -> Vec<Option<usize>>,
+) -> Vec<Standing> {
     let present: Vec<usize> = (0..points.len()).filter(|&at| points[at].is_some()).collect();
-    let compared: Vec<[f64; AXES]> = points.iter().flatten().copied().collect();
+    let compared: Vec<P> = points.iter().flatten().copied().collect();
     let mut standings = vec![(None, None); points.len()];
     for (&place, dominator) in present.iter().zip(dominators(&compared)) {
         let name = dominator.map(|by| names[present[by]].clone());
@@ -170,7 +190,7 @@ pub(super) fn stand(rows: &mut [ContenderRow]) {
     let names: Vec<String> = rows.iter().map(|row| row.contender.clone()).collect();
     let standing = |error: fn(&ContenderRow) -> Option<f64>| {
         let points: Vec<_> = rows.iter().map(|row| point(row, error(row))).collect();
-        standings(&names, &points)
+        standings(&names, &points, dominators)
     };
     let epicentre = standing(|row| row.epicentre_worst);
     let whole = standing(|row| row.whole_worst);
@@ -232,13 +252,15 @@ pub(super) fn timing_rows(
     every: u64,
 ) -> Vec<TimingRow> {
     let names: Vec<String> = list.iter().map(|contender| contender.name.clone()).collect();
-    let standing = |time: fn(&ContenderTimes) -> Option<f64>, part: fn(&ContenderErrors) -> &Errors| {
-        let points: Vec<_> =
-            times.iter().zip(errors).map(|(times, errors)| Some([time(times)?, worst(part(errors))?])).collect();
-        standings(&names, &points).into_iter()
+    let standing = |time: fn(&ContenderTimes) -> Option<Times>, part: fn(&ContenderErrors) -> &Errors| {
+        let point = |(times, errors): (&ContenderTimes, &ContenderErrors)| {
+            let Times { lower_quartile, upper_quartile, .. } = time(times)?;
+            Some(Timed { quartiles: [lower_quartile, upper_quartile], error: worst(part(errors))? })
+        };
+        let points: Vec<_> = times.iter().zip(errors).map(point).collect();
+        standings(&names, &points, dominators_in_time).into_iter()
     };
-    let [block, mixed]: [fn(&ContenderTimes) -> Option<f64>; 2] =
-        [|times| Some(times.block.median), |times| Some(times.mixed?.median)];
+    let [block, mixed]: [fn(&ContenderTimes) -> Option<Times>; 2] = [|times| Some(times.block), |times| times.mixed];
     let [epicentre, whole]: [fn(&ContenderErrors) -> &Errors; 2] = [|e| &e.epicentre, |e| &e.whole];
     let blocks = standing(block, epicentre).zip(standing(block, whole));
     let mixtures = standing(mixed, epicentre).zip(standing(mixed, whole));

@@ -104,7 +104,7 @@ fn to_level(own: &Config, level: f64) -> Config {
 
 fn plain(request: &Request) -> Config {
     Config {
-        name: "designed".to_owned(),
+        name: request.name(),
         method: Method::Hermite,
         exponents: request.exponents.clone(),
         input: request.input,

@@ -46,6 +46,8 @@ pub enum CandidateFate {
     Proved(Hardware),
     /// The same after narrowing.
     Narrowed(Hardware),
+    /// The least of those: the result.
+    Chosen(Hardware),
 }
 
 /// A candidate with what became of it.
@@ -124,6 +126,7 @@ pub fn size(request: &Request, progress: &dyn Progress) -> Result<Sized, SizingE
     let (Some(base), judge) = (built[index].1.clone(), &finals[index].0) else {
         return Err(nothing(request, built));
     };
+    built[index].0.verdict = CandidateFate::Chosen(state.hardware);
     let design = settled(&base, &state)?;
     let worst = greatest(&judge.measured(&design, &AtomicU64::new(0)));
     let Some(worst) = worst.filter(|worst| worst.error <= request.error) else {
@@ -226,15 +229,16 @@ fn nothing(request: &Request, built: Vec<(Considered, Option<Design>)>) -> Sizin
     SizingError::Nothing { error: request.error, nearest: name, real: real.0, n: real.1, why }
 }
 
-/// The narrowed ones by their hardware, then the proved ones, then by their real error.
+/// The chosen one, the narrowed ones by their hardware, then the proved ones, then by their real error.
 fn ranked(built: Vec<(Considered, Option<Design>)>) -> Vec<Considered> {
     let mut all: Vec<Considered> = built.into_iter().map(|(considered, _)| considered).collect();
     all.sort_by(|a, b| {
         let key = |considered: &Considered| match &considered.verdict {
-            CandidateFate::Narrowed(hardware) => (0, Some(*hardware)),
-            CandidateFate::Proved(hardware) => (1, Some(*hardware)),
-            CandidateFate::Refused(_) => (2, None),
-            CandidateFate::TooFar => (3, None),
+            CandidateFate::Chosen(hardware) => (0, Some(*hardware)),
+            CandidateFate::Narrowed(hardware) => (1, Some(*hardware)),
+            CandidateFate::Proved(hardware) => (2, Some(*hardware)),
+            CandidateFate::Refused(_) => (3, None),
+            CandidateFate::TooFar => (4, None),
         };
         key(a).cmp(&key(b)).then_with(|| a.real.whole.total_cmp(&b.real.whole))
     });

@@ -4,19 +4,19 @@ pub(super) mod print;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use anyhow::{Context, bail};
 use clap::{ArgGroup, Args as ClapArgs};
 use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::exponents::Exponents;
-use hw_model::fit::{Levels, Method, UnknownMethod};
+use hw_model::fit::{Levels, Method};
 use rayon::prelude::*;
 use vectors::text_file::{self, CERTIFICATE};
 
 use super::bar::Bar;
 use super::configuration::MaybeConfiguration;
+use super::methods::Methods;
 use super::out::{Out, Outcome};
 use super::output;
 use super::report::bound;
@@ -89,21 +89,6 @@ struct Subject {
 
 fn help_of_method() -> String {
     format!("{}, or all [default: hermite with --all-real-n, else all].", Method::list())
-}
-
-/// One method, or all of them.
-#[derive(Debug, Clone)]
-struct Methods(Vec<Method>);
-
-impl FromStr for Methods {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "all" {
-            return Ok(Self(Method::ALL.to_vec()));
-        }
-        let one = |method| Self(vec![method]);
-        text.parse().map(one).map_err(|error: UnknownMethod| format!("{error}, or all"))
-    }
 }
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {

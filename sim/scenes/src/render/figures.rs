@@ -54,6 +54,7 @@ pub struct MaterialFigures {
     /// Of these, x^n ≥ Q.
     pub epicentre: u64,
     /// Below the epicentre, and polynomial or divider answer.
+    #[serde(rename = "below_epicentre")]
     pub tail: u64,
     /// Below the cut, and nothing answers.
     pub zero: u64,

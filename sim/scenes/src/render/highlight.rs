@@ -36,7 +36,7 @@ impl Zone {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Epicentre => "epicentre",
-            Self::Tail => "tail",
+            Self::Tail => "below it",
             Self::Zero => "zero",
             Self::FacesAway => "facing away",
         }
