@@ -223,6 +223,18 @@ impl Config {
         text
     }
 
+    /// The same for x of another format. A stated cut or hand-over finer than the new x is left out: the derived one is
+    /// as fine as x.
+    #[must_use]
+    pub fn with_input(mut self, input: QFormat) -> Self {
+        for end in [Register::Cut, Register::HandOver(1)] {
+            if self.widths[end].is_some_and(|format| format.fraction_bits() > input.fraction_bits()) {
+                self.widths.set(end, None);
+            }
+        }
+        Self { input, ..self }
+    }
+
     /// What stands around the data path.
     #[must_use]
     pub const fn control(&self) -> Control {
