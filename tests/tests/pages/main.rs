@@ -3,5 +3,6 @@
 
 mod lines;
 mod paths;
+mod presets;
 mod readme;
 mod tree;

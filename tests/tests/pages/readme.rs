@@ -1,5 +1,5 @@
-//! The commands of README work as they are printed, one after the other, in a directory that has nothing but the files
-//! of docs/ they name.
+//! The commands of README and of docs/COMMANDS.md work as they are printed, one after the other, in a directory that has
+//! nothing but the files of docs/ they name; and what the pages show of their output is there.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -11,11 +11,13 @@ use tempfile::TempDir;
 
 use crate::tree::{root, text};
 
-/// A command of README and the exit status that its comment says, 0 where it says none.
+/// A command of a page, the exit status that its comment says, 0 where it says none, and the lines of its output that
+/// the page shows; `…` is output that is left out.
 #[derive(Debug, PartialEq, Eq)]
 struct Printed {
     command: String,
     status: i32,
+    shown: Vec<String>,
 }
 
 /// Commands for a clone of the repository, and those that fetch one: this test is a part of what they do.
@@ -28,7 +30,7 @@ fn printed(line: &str) -> Option<Printed> {
         .split("exit status ")
         .nth(1)
         .and_then(|rest| rest.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok()));
-    Some(Printed { command: command.trim().to_owned(), status: status.unwrap_or(0) })
+    Some(Printed { command: command.trim().to_owned(), status: status.unwrap_or(0), shown: vec![] })
 }
 
 /// Whether a command is for a clone: its first word says so, but `make -C` runs what `blysk` wrote.
@@ -40,12 +42,14 @@ fn is_of_a_clone(command: &str) -> bool {
 /// The commands of the console blocks of a page, in order.
 fn commands(page: &str) -> Vec<Printed> {
     let mut block = false;
-    let mut found = Vec::new();
+    let mut found: Vec<Printed> = Vec::new();
     for line in page.lines() {
         if line.starts_with("```") {
             block = line == "```console";
-        } else if block {
-            found.extend(printed(line));
+        } else if let Some(command) = printed(line).filter(|_| block) {
+            found.push(command);
+        } else if let Some(before) = found.last_mut().filter(|_| block) {
+            before.shown.push(line.to_owned());
         }
     }
     found.into_iter().filter(|printed| !is_of_a_clone(&printed.command)).collect()
@@ -65,11 +69,41 @@ fn names(directory: &Path) -> BTreeSet<String> {
     entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("UTF-8")).collect()
 }
 
-#[test]
-fn its_commands_work_in_an_empty_directory() {
-    let commands = commands(&text("README.md"));
-    assert!(commands.len() > 15, "{commands:?}");
+/// Whether an output has these lines, one right after the other but for what `…` leaves out.
+fn shows(said: &str, shown: &[String]) -> bool {
+    let mut said = said.lines().map(str::trim_end);
+    let mut left_out = false;
+    for line in shown {
+        if line == "…" {
+            left_out = true;
+            continue;
+        }
+        let found = if left_out { said.any(|other| other == line) } else { said.next() == Some(line) };
+        if !found {
+            return false;
+        }
+        left_out = false;
+    }
+    shown.is_empty() || left_out || said.next().is_none()
+}
 
+#[test]
+fn commands_of_readme_work_in_an_empty_directory() {
+    let page = text("README.md");
+    assert!(page.lines().count() < 150, "README is for the first minutes");
+    let shown = work(&commands(&page));
+    assert!(shown > 25, "{shown} lines of output");
+}
+
+#[test]
+fn commands_of_their_page_work_in_an_empty_directory() {
+    let commands = commands(&text("docs/COMMANDS.md"));
+    assert!(commands.len() > 20, "{commands:?}");
+    work(&commands);
+}
+
+/// Runs commands in an empty directory; gives how many lines are shown of what they print.
+fn work(commands: &[Printed]) -> usize {
     let (programs, directory) = (TempDir::new().unwrap(), TempDir::new().unwrap());
     symlink(env!("CARGO_BIN_EXE_blysk-under-test"), programs.path().join("blysk")).unwrap();
     let path = format!("{}:{}", programs.path().display(), std::env::var("PATH").unwrap());
@@ -79,17 +113,29 @@ fn its_commands_work_in_an_empty_directory() {
     }
     let before = inputs.map(|input| names(&directory.path().join(input)));
 
-    for Printed { command, status } in commands {
+    for Printed { command, status, shown } in commands {
         let mut shell = Command::new("bash");
-        shell.args(["-euo", "pipefail", "-c", &command]).current_dir(directory.path()).env("PATH", &path);
+        shell.args(["-euo", "pipefail", "-c", command]).current_dir(directory.path()).env("PATH", &path);
         let run = shell.env_remove("MAKEFLAGS").output().expect("bash is there");
-        let said = [run.stdout.as_slice(), run.stderr.as_slice()].concat();
-        let said = String::from_utf8_lossy(&said);
-        assert_eq!(run.status.code(), Some(status), "$ {command}\n{said}");
+        let output = String::from_utf8_lossy(&run.stdout);
+        let said = format!("$ {command}\n{output}{}", String::from_utf8_lossy(&run.stderr));
+        assert_eq!(run.status.code(), Some(*status), "{said}");
+        assert!(shows(&output, shown), "the page shows\n{}\nof {said}", shown.join("\n"));
     }
     // All outputs are below one directory, which .gitignore has.
     assert_eq!(names(directory.path()), BTreeSet::from(["docs".to_owned(), "results".to_owned()]));
     assert_eq!(inputs.map(|input| names(&directory.path().join(input))), before);
+    commands.iter().map(|printed| printed.shown.len()).sum()
+}
+
+#[test]
+fn what_is_shown_is_there_or_not() {
+    let said = "one\ntwo\nthree\n";
+    let shows = |shown: &str| shows(said, &shown.lines().map(str::to_owned).collect::<Vec<_>>());
+    assert!(["", "one\ntwo\nthree", "one\n…", "…\nthree", "…\ntwo\n…", "one\n…\nthree"].into_iter().all(shows));
+    assert!(
+        ["one", "two\n…", "one\nthree", "…\ntwo", "one\n…\nfour\n…", "three\n…\none"].into_iter().all(|no| !shows(no))
+    );
 }
 
 #[test]
@@ -97,6 +143,8 @@ fn commands_and_their_statuses_are_found() {
     let page = "$ no\n```console\n$ blysk a --b 1   # words, exit status 1: not so\n$ make test\n\
                 $ make -C results/rtl\nwhat it says\n$ cargo install x\n```\n$ no\n```json\n$ no\n```\n";
     let found = commands(page);
-    let found: Vec<_> = found.iter().map(|printed| (printed.command.as_str(), printed.status)).collect();
-    assert_eq!(found, [("blysk a --b 1", 1), ("make -C results/rtl", 0)]);
+    let found: Vec<_> =
+        found.iter().map(|printed| (printed.command.as_str(), printed.status, printed.shown.join(","))).collect();
+    let said = "what it says".to_owned();
+    assert_eq!(found, [("blysk a --b 1", 1, String::new()), ("make -C results/rtl", 0, said)]);
 }
