@@ -136,11 +136,8 @@ fn check_asked(certificate: &Certificate, asked: Asked<'_>) -> Result<(), Refuse
     check_demands(certificate, &demands)
 }
 
-/// The configuration asked for, with a word for each exponent where rows are shared.
+/// The configuration asked for, with a word for each exponent that the certificate is about.
 fn wanted_source(certificate: &Certificate, source: &Config) -> Result<Config, Refused> {
-    if certificate.parts.iter().all(|part| part.served.is_none()) {
-        return Ok(source.clone());
-    }
     let exponents = certificate.parts.iter().map(|part| part.n);
     let problem =
         |error: &dyn std::fmt::Display| Refused::Field { field: "parts".to_owned(), problem: error.to_string() };
