@@ -53,8 +53,8 @@ pub(super) struct Args {
     /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
-    /// Also write smooth.png, the pipeline's picture with this many samples in a pixel, a square number from 4 to 64: for
-    /// looking at. Figures and the other pictures stay those of one sample in a pixel.
+    /// Also write smooth.png, the pipeline's picture with this many samples in a pixel, a square number from 4 to 64:
+    /// for looking at. Figures and the other pictures stay those of one sample in a pixel.
     #[arg(long, value_name = "COUNT", requires = "out", value_parser = square)]
     samples_per_pixel: Option<u32>,
     /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays

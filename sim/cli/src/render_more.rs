@@ -77,7 +77,7 @@ pub(super) fn print_compared(compared: &[Compared], out: &mut Out) -> anyhow::Re
     }
     writeln!(out)?;
     rows.print(out, Format::Table, 4)?;
-    let said = "codes, mean, PSNR and pixels: the picture against that of x^n, in display codes; linear and display: the \
-                highlight that is furthest from x^n, in codes of linear light and of the display";
+    let said = "codes, mean, PSNR and pixels: the picture against that of x^n, in display codes; linear and display: \
+                the highlight that is furthest from x^n, in codes of linear light and of the display";
     Ok(write_folded(out, said)?)
 }
