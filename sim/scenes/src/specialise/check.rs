@@ -174,6 +174,9 @@ fn own_rows(certificate: &Certificate, source: &Design, specialised: &Design) ->
     };
     let demands = certificate.parts.iter().enumerate().map(demand).collect::<Result<Vec<_>, _>>()?;
     let whole = |problem: String| Refused::Field { field: "parts".to_owned(), problem };
+    if !certificate.parts.is_sorted_by(|one, next| one.n < next.n) {
+        return Err(whole("n does not rise from part to part; each exponent has one".to_owned()));
+    }
     let own_or_other = |part: &Part| part.served.map_or(part.n, |served| served.row);
     let rows_of: Vec<f64> = certificate.parts.iter().map(own_or_other).collect();
     let rows = served_rows(source, &demands, &rows_of).map_err(|error| whole(error.to_string()))?;
