@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use scenes::scene::{MeshError, Normals, Scene, Triangle, Vector, triangles};
+use scenes::scene::{Mesh, MeshError, Normals, Scene, Triangle, Vector, triangles};
 
 fn flat(text: &str) -> Vec<Triangle> {
     triangles(text, Normals::Flat).unwrap_or_else(|error| panic!("{text}{error}"))
@@ -171,6 +171,18 @@ fn polygons_that_are_none_are_refused_with_their_line() {
         assert_eq!(line, corners.len() + 2, "{problem}");
         assert!(problem.contains(said), "{problem}");
     }
+}
+
+/// Exporters write triangles whose corners lie on one line, or at one place: they show nothing.
+#[test]
+fn triangles_without_area_are_left_out() {
+    let places = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\n";
+    let whole = flat(&format!("{places}f 1 2 3\n"));
+    let with_others = format!("{places}f 1 2 4\nf 1 2 3\nf 2 2 3\nf 1 1 1\n");
+    let mesh = Mesh::read(&with_others, Normals::Flat).unwrap();
+    assert_eq!((mesh.triangles, mesh.without_area, mesh.material_of.len()), (whole, 3, 1));
+    let (line, problem) = refused(&format!("{places}f 1 2 4\n"), Normals::Smooth);
+    assert!(line == 5 && problem.contains("no face of the file has an area"), "{line}: {problem}");
 }
 
 /// A star of many points around a middle.

@@ -5,20 +5,21 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use clap::Args as ClapArgs;
+use clap::{ArgGroup, Args as ClapArgs};
 use hw_model::design::Design;
 use rayon::prelude::*;
 
 use super::bar::Bar;
-use super::configuration::Configuration;
+use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
 use super::picture_size::size;
+use super::render_more::{designs, pipelines, print_compared, smoothed, square};
 use super::scene::{Loaded, load, resized};
 use super::table::{Cell, Format, Rows, counted, digits, write_folded};
 use scenes::render::{
-    Answers, Codes, Cycles, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, difference, encode,
-    heat_map, methods, reference, samples, shade,
+    Answers, Codes, Cycles, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, compare, difference,
+    encode, heat_map, methods, reference, samples, shade, side_by_side,
 };
 use scenes::report::{self as files, RenderReport};
 use scenes::scene::Scene;
@@ -34,6 +35,7 @@ use scenes::scene::Scene;
 /// highlights are computed with and without these samples, compared, and timed. Exit status: 0 when both are the same,
 /// 1 when they differ, 2 for an error.
 #[derive(ClapArgs)]
+#[command(group(ArgGroup::new("hardware").args(["preset", "config", "compare"]).required(true).multiple(true)))]
 #[command(after_help = "Examples: blysk render scene.json --preset paper --out pictures\n          \
                         blysk render scene.json --config mine.json --size 64x48 --format json")]
 pub(super) struct Args {
@@ -41,13 +43,21 @@ pub(super) struct Args {
     #[arg(value_name = "SCENE")]
     scene: PathBuf,
     #[command(flatten)]
-    configuration: Configuration,
+    configuration: MaybeConfiguration,
+    /// Presets beside the configuration, or instead of one: a table of what each makes of the scene and, with --out,
+    /// compare.png with all of them side by side and their differences from x^n, compare.csv and compare.json.
+    #[arg(long, value_name = "PRESET", value_delimiter = ',')]
+    compare: Vec<String>,
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// The size of the picture in pixels, such as 1920x1080, instead of the scene's.
     #[arg(long, value_name = "SIZE", value_parser = size)]
     size: Option<(u32, u32)>,
+    /// Also write smooth.png, the pipeline's picture with this many samples in a pixel, a square number from 4 to 64:
+    /// for looking at. Figures and the other pictures stay those of one sample in a pixel.
+    #[arg(long, value_name = "COUNT", requires = "out", value_parser = square)]
+    samples_per_pixel: Option<u32>,
     /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays
     /// with x^n of the scene's own n, so that the column `linear codes` tells what each material pays.
     #[arg(long)]
@@ -71,15 +81,19 @@ const ROUNDS: u32 = 7;
 const LATEST_ROUND: Duration = Duration::from_millis(400);
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
-    let design = args.configuration.design()?;
+    let designs = designs(&args.configuration, &args.compare)?;
+    let design = designs.first().context("say --preset NAME or --config FILE")?;
     let scene_name = || args.scene.display().to_string();
     let Loaded { mut scene, files: read } = load(&args.scene)?;
     resized(&mut scene, args.size)?;
     let rows = if args.nearest { RowFor::Nearest } else { RowFor::Exactly };
-    let pipeline = ScenePipeline::with_rows(&design, &scene, rows).with_context(scene_name)?;
+    let pipeline = ScenePipeline::with_rows(design, &scene, rows).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
     let inputs = [read, args.configuration.files()].concat();
-    let names = files::PICTURES.into_iter().chain(files::TABLES);
+    let compared = if args.compare.is_empty() { Vec::new() } else { pipelines(&designs, &scene, rows)? };
+    let mut more = if compared.is_empty() { Vec::new() } else { files::COMPARED.to_vec() };
+    more.extend(args.samples_per_pixel.map(|_| files::SMOOTH));
+    let names = files::PICTURES.iter().chain(&files::TABLES).chain(&more);
     let set = args.out.as_deref().map(|out| output::set(out, "render", &inputs, names)).transpose()?;
     let begun = Instant::now();
     let rays = u64::from(scene.image.width) * u64::from(scene.image.height);
@@ -89,19 +103,27 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let traced = begun.elapsed();
     let highlights = Highlights::new(&pipeline, &samples);
     let rendered = Rendered::new(&scene, &samples, &pipeline, &highlights);
+    let rows_compared = compare(&scene, &samples, &compared);
     let report = report(args, &scene, &samples, &pipeline, &rendered, &highlights);
     if let Some(mut set) = set {
-        let pictures = pictures(&scene, &samples, &design, &rendered)?;
+        let pictures = pictures(&scene, &samples, design, &rendered)?;
         files::write(&mut set, &report, &pictures)?;
+        if !compared.is_empty() {
+            files::write_compared(&mut set, &rows_compared, &side_by_side(&scene, &samples, &compared)?)?;
+        }
+        if let Some(side) = args.samples_per_pixel {
+            set.write(files::SMOOTH, smoothed(&scene, design, rows, side)?)?;
+        }
         set.commit()?;
     }
     match args.format {
         Format::Table => {
             print(&report, out)?;
             nearest(&scene, &pipeline, out)?;
+            print_compared(&rows_compared, out)?;
             times(&highlights, traced, begun.elapsed(), out)?;
             if let Some(directory) = &args.out {
-                let names = [&files::PICTURES[..], &files::TABLES[..]].concat().join(", ");
+                let names = [&files::PICTURES[..], &files::TABLES, &more].concat().join(", ");
                 write_folded(out, &format!("written to {}: {names}", directory.display()))?;
             }
         }

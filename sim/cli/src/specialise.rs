@@ -1,17 +1,13 @@
 //! `blysk specialise`: hardware for one scene, with a certificate.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, bail};
 use clap::Args as ClapArgs;
-use hw_model::config::Config;
 use hw_model::design::Design;
 use hw_model::names;
-use vectors::configuration_file;
 use vectors::rtl::Emission;
-use vectors::text_file;
-use vectors::whole_file::{ListError, check_list};
 use vectors::{Bundle, BundleError, OutputSet, Strategy, rtl};
 
 use super::bar::Bar;
@@ -19,12 +15,13 @@ use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
 use super::scene::{Loaded, load};
+use super::specialise_check::{COMMAND, CONFIGURATION, RTL, check};
 use super::synthesis;
 use super::table::{Cell, Format, Rows, write_folded};
 use scenes::render::{RowFor, Samples, ScenePipeline, Which, Zone, samples};
 use scenes::scene::Scene;
 use scenes::specialise::{
-    self, Asked, AskedRow, Certificate, Demand, Display, Held, LeftOut, Proved, Served, demands, is_guarded, left_out,
+    Asked, AskedRow, Certificate, Demand, Display, LeftOut, Proved, Served, demands, is_guarded, left_out,
     pixels_outside, points, reduce, rows, serve, served_rows, with_words,
 };
 
@@ -81,13 +78,9 @@ pub(super) struct Args {
     format: Format,
 }
 
-/// Whose list the files are on.
-const COMMAND: &str = "specialise";
 /// The files of a set; hardware has directories of its own.
-const CONFIGURATION: &str = "configuration.json";
 const CERTIFICATE: &str = "certificate.json";
 const LEFT_OUT: [(&str, Format); 2] = [("left_out.csv", Format::Csv), ("left_out.json", Format::Json)];
-const RTL: &str = "rtl";
 const SOURCE_RTL: &str = "source_rtl";
 
 impl Args {
@@ -118,7 +111,8 @@ impl Args {
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let loaded = args.scene.as_ref().map(|path| load(path)).transpose()?;
     if let Some(path) = &args.check {
-        return check(args, path, loaded.as_ref().map(|loaded| &loaded.scene), out);
+        let (scene, source) = (loaded.as_ref().map(|loaded| &loaded.scene), args.configuration.config()?);
+        return check(Asked { scene, source: source.as_ref(), codes: args.allow_codes }, path, out);
     }
     let Some(Loaded { scene, files }) = loaded else { bail!("give a scene") };
     let Some(source) = args.configuration.design()? else {
@@ -346,64 +340,4 @@ fn hardware(design: &Design, args: &Args, set: &mut OutputSet) -> Result<(), Bun
     let command = args.command();
     let bundle = Bundle::new(design, Strategy::Mixed, args.count, args.seed, &command)?;
     rtl::stage(&bundle, &Emission::default(), &command, set).map(drop)
-}
-
-/// How many files stand beside a certificate that were written with it, each as it was then; nothing where it stands
-/// alone.
-fn written_with(certificate: &Path) -> Result<Option<usize>, ListError> {
-    let directory = certificate.parent().unwrap_or(Path::new(""));
-    let beside = [CONFIGURATION, RTL].iter().any(|name| directory.join(name).exists());
-    match check_list(directory, COMMAND) {
-        Ok(names) => {
-            let named = |name: &String| certificate.file_name() == Some(name.as_ref());
-            Ok(names.iter().any(named).then(|| names.len() - 1))
-        }
-        Err(ListError::NoList { .. }) if !beside => Ok(None),
-        Err(refused) => Err(refused),
-    }
-}
-
-fn check(args: &Args, path: &Path, scene: Option<&Scene>, out: &mut Out) -> anyhow::Result<Outcome> {
-    let shown = path.display();
-    let text = text_file::read(path, text_file::CERTIFICATE)?;
-    let source = args.configuration.config()?;
-    let asked = Asked { scene, source: source.as_ref(), codes: args.allow_codes };
-    let bar = Bar::new(specialise::inputs(&text));
-    let held = specialise::check(&text, asked, &bar);
-    bar.finish();
-    let said = held.map_err(anyhow::Error::from).and_then(|held| accepted(path, held));
-    match said {
-        Ok(sentences) => {
-            for sentence in sentences {
-                write_folded(out, &sentence)?;
-            }
-            Ok(Outcome::Good)
-        }
-        Err(refused) => {
-            write_folded(out, &format!("{shown} does not hold: {refused:#}"))?;
-            Ok(Outcome::Fails)
-        }
-    }
-}
-
-/// What to say of a certificate that holds: what it is about, the files beside it, and what was not checked.
-fn accepted(path: &Path, held: Held) -> anyhow::Result<Vec<String>> {
-    let Held { statement, not_checked, specialised } = held;
-    let beside = match written_with(path)? {
-        Some(count) => {
-            check_beside(path, &specialised)?;
-            format!("The {count} files beside it are those written with it.")
-        }
-        None => "It stands alone: files of hardware were not looked at.".to_owned(),
-    };
-    let first = [format!("{} holds: {statement}", path.display()), beside];
-    Ok(first.into_iter().chain(not_checked).collect())
-}
-
-/// The configuration beside the certificate is the one that it is about.
-fn check_beside(certificate: &Path, specialised: &Config) -> anyhow::Result<()> {
-    let path = certificate.with_file_name(CONFIGURATION);
-    let other = || format!("{} is not the certificate's configuration", path.display());
-    anyhow::ensure!(configuration_file::read(&path)? == *specialised, other());
-    Ok(())
 }

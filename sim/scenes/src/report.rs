@@ -5,7 +5,7 @@ use thiserror::Error;
 use vectors::output_text;
 use vectors::whole_file::{OutputError, OutputSet};
 
-use crate::render::{Cycles, Difference, MaterialFigures};
+use crate::render::{Compared, Cycles, Difference, MaterialFigures};
 use crate::scene::{Image, Scene, Transfer};
 
 /// The pictures of a rendering.
@@ -13,6 +13,12 @@ pub const PICTURES: [&str; 4] = ["reference.png", "pipeline.png", "difference.pn
 
 /// The tables of a rendering.
 pub const TABLES: [&str; 2] = ["render.csv", "render.json"];
+
+/// What a rendering has beside these where pipelines are compared.
+pub const COMPARED: [&str; 3] = ["compare.png", "compare.csv", "compare.json"];
+
+/// The picture with several samples in a pixel.
+pub const SMOOTH: &str = "smooth.png";
 
 /// Why a rendering was not written.
 #[derive(Debug, Error)]
@@ -100,6 +106,18 @@ pub fn write(set: &mut OutputSet, report: &RenderReport, pictures: &[Vec<u8>; 4]
     let [csv, json] = TABLES;
     set.write(csv, report.csv()?)?;
     set.write(json, report.json()?)?;
+    Ok(())
+}
+
+/// Adds what [`COMPARED`] names to `set`.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_compared(set: &mut OutputSet, rows: &[Compared], picture: &[u8]) -> Result<(), RenderFilesError> {
+    let [png, csv, json] = COMPARED;
+    set.write(png, picture)?;
+    set.write(csv, output_text::csv(rows)?)?;
+    set.write(json, output_text::json(rows)?)?;
     Ok(())
 }
 

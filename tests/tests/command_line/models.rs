@@ -48,7 +48,7 @@ fn a_cube_with_the_exponent_of_blender() {
     let bench = bench!();
     let rows = through(&bench, "cube.obj");
     let of = |name: &str| rows.iter().find(|row| row["material"] == name).unwrap();
-    assert_eq!(of("Material")["n"], "96.078431");
+    assert_eq!(number(of("Material"), "n"), 96.078431);
     assert!(of("None")["remarks"].contains("an exponent of 0"), "{rows:?}");
 }
 

@@ -142,6 +142,59 @@ fn the_highlight_of_a_ball_is_round_and_alone() {
     }
 }
 
+/// With samples in a row of a pixel the picture is their mean, and every other file is as without.
+#[test]
+fn a_smooth_picture_for_looking() {
+    let bench = bench!();
+    let linear = std::fs::read_to_string(scene("one_material")).unwrap();
+    let linear = linear.replace("\"height\": 360", "\"height\": 360, \"transfer\": \"linear\"");
+    bench.write("linear.json", linear);
+    let one = "render linear.json --preset compact --size 40x30 --out";
+    let _said = bench.good(&format!("{one} one"));
+    let _said = bench.good(&format!("{one} four --samples-per-pixel 4"));
+    let _said = bench.good("render linear.json --preset compact --size 80x60 --out large");
+    for name in FILES.iter().filter(|name| !name.ends_with("sha256")) {
+        assert!(bench.read(&format!("one/{name}")) == bench.read(&format!("four/{name}")), "{name}");
+    }
+    let [smooth, large] = ["four/smooth.png", "large/pipeline.png"].map(|name| png(&bench.read(name)));
+    assert_eq!((smooth.width, smooth.height), (40, 30));
+    for (index, &code) in smooth.samples.iter().enumerate() {
+        let (pixel, colour) = (index / 3, index % 3);
+        let at = |row: usize, column: usize| f64::from(large.samples[3 * (row * 80 + column) + colour]);
+        let (row, column) = (2 * (pixel / 40), 2 * (pixel % 40));
+        let mean = (at(row, column) + at(row, column + 1) + at(row + 1, column) + at(row + 1, column + 1)) / 4.0;
+        assert!((mean - f64::from(code)).abs() <= 1.0, "{index}: {mean} {code}");
+    }
+    bench.refused("render linear.json --preset compact --out x --samples-per-pixel 5", &["square number"]);
+}
+
+/// Several pipelines beside each other: the figures of each are those that it has alone.
+#[test]
+fn pipelines_are_compared() {
+    let bench = bench!();
+    let more = ["--compare", "paper,precise", "--size", "96x72", "--out", "both"];
+    let said = rendered(&bench, "one_material", &more);
+    assert!(said.contains("pipeline") && said.contains("precise"), "{said}");
+    let rows = csv_rows(&bench.text("both/compare.csv"));
+    assert_eq!(rows.iter().map(|row| row["configuration"].as_str()).collect::<Vec<_>>(), ["paper", "precise"]);
+    for row in &rows {
+        let name = row["configuration"].as_str();
+        let alone = rendered(&bench, "one_material", &["--preset", name, "--size", "96x72", "--format", "json"]);
+        let alone: Value = serde_json::from_str(&alone).unwrap();
+        assert_eq!(number(row, "picture_greatest_codes"), alone["picture"]["greatest"].as_f64().unwrap());
+        assert_eq!(number(row, "picture_pixels"), alone["picture"]["pixels"].as_f64().unwrap());
+        assert!((number(row, "picture_psnr_db") - alone["picture"]["psnr"].as_f64().unwrap()).abs() < 1e-9);
+        let linear = alone["materials"][0]["highlight_greatest_codes"].as_f64().unwrap();
+        assert!((number(row, "highlight_greatest_linear_codes") - linear).abs() < 1e-9);
+    }
+    let [paper, precise] = [0, 1].map(|index| number(&rows[index], "picture_greatest_codes"));
+    assert!(precise < paper, "{rows:?}");
+    let sheet = png(&bench.read("both/compare.png"));
+    assert!(sheet.width > 3 * 96 && sheet.height > 2 * 72);
+    bench.refused_list(&["render", scene("one_material").to_str().unwrap()], &["--preset"]);
+    bench.refused_list(&["render", scene("one_material").to_str().unwrap(), "--compare", "none"], &["none"]);
+}
+
 /// The default clock, and a mesh of our own in a scene of our own.
 #[test]
 fn a_mesh_of_our_own() {

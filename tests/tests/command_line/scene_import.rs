@@ -39,7 +39,7 @@ fn a_model_with_its_libraries_becomes_a_scene() {
     bench.write("models/a b.obj", MODEL.replace("own.mtl", "lost.mtl"));
     let said =
         bench.run_list(&["scene", "import", "models/a b.obj", "--mtl", "models/materials/own.mtl", "--out", "b.json"]);
-    for says in ["line 1: the library \"materials/lost.mtl\"", "1 of 3 exponents is no whole number", "(line 10)"] {
+    for says in ["line 1: the library \"materials/lost.mtl\"", "1 of 3 exponents is no whole number", "(line 11)"] {
         assert!(said.stdout.replace("\n", " ").contains(says), "{says}: {}", said.stdout);
     }
 

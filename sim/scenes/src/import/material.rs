@@ -105,8 +105,8 @@ pub(super) fn without_rows(materials: &[Material]) -> Option<String> {
     let is = if count == 1 { "is no whole number" } else { "are no whole numbers" };
     (count > 0).then(|| {
         format!(
-            "{count} of {all} exponents {is} from 1 to {MOST_OF_PRESETS}, so that presets have no row: see --nearest of \
-             `blysk render` and `blysk specialise`"
+            "{count} of {all} exponents {is} from 1 to {MOST_OF_PRESETS}, so that presets have no row: see --nearest \
+             of `blysk render` and `blysk specialise`"
         )
     })
 }

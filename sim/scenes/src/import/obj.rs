@@ -36,6 +36,9 @@ pub fn obj(
 ) -> Result<Imported, ImportError> {
     let mesh = Mesh::read(text, Normals::Smooth)?;
     let mut remarks = Vec::new();
+    if mesh.without_area > 0 {
+        remarks.push(format!("left out: {} faces without area", mesh.without_area));
+    }
     let mut known: BTreeMap<String, Written> = BTreeMap::new();
     let mut take = |name: &str, text: &str| -> Result<(), ImportError> {
         let found = mtl::read(text);

@@ -46,6 +46,12 @@ fn colour(difference: i32, greatest: i32) -> [u8; 3] {
     })
 }
 
+/// The difference of each pixel as its colour, where `greatest` (at least 1) is the end of the scale.
+pub(super) fn heat(pipeline: &Picture, reference: &Picture, greatest: u16) -> Vec<[u8; 3]> {
+    let greatest = i32::from(greatest.max(1));
+    signed(pipeline, reference).into_iter().map(|difference| colour(difference, greatest)).collect()
+}
+
 /// The differences as a PNG, with their scale below. Its ends are the greatest difference there is.
 ///
 /// # Errors

@@ -21,7 +21,7 @@
 //! | `highlight.rs` | the pipeline's answers, and x^n |
 //! | `colour.rs`, `shading.rs` | linear light, and display codes |
 //! | `figures.rs` | differences, regions, cycles |
-//! | `png.rs`, `heat.rs`, `methods.rs`, `sheet.rs` | the pictures |
+//! | `png.rs`, `heat.rs`, `methods.rs`, `compare.rs`, `panels.rs`, `sheet.rs` | the pictures |
 //!
 //! Everything is computed in f64 with correctly rounded functions and in an order of its own, so that neither machine
 //! nor number of threads changes a byte.
@@ -29,10 +29,12 @@
 mod angle;
 mod bvh;
 mod colour;
+mod compare;
 mod figures;
 mod heat;
 mod highlight;
 mod methods;
+mod panels;
 mod png;
 mod rays;
 mod requests;
@@ -45,6 +47,7 @@ pub use angle::{Presented, presented};
 pub(crate) use bvh::Below;
 pub use bvh::Bvh;
 pub use colour::Codes;
+pub use compare::{Compared, compare, side_by_side};
 pub use figures::{Cycles, Difference, MaterialFigures, by_material, difference};
 pub use heat::heat_map;
 pub use highlight::{Answers, Zone, reference};
@@ -53,6 +56,6 @@ pub use png::{PngError, encode};
 pub use rays::{Ray, ray};
 pub use requests::{Group, MissingExponent, RowFor, ScenePipeline, Which, bits};
 pub use samples::{Sample, Samples, SurfacePixel, samples};
-pub use shading::{Picture, shade};
+pub use shading::{Picture, shade, smooth};
 pub use sheet::SheetError;
 pub use surfaces::{Hit, meet};

@@ -24,7 +24,39 @@ pub struct Picture {
 /// light of a pixel = ambient · ambient light + Σ light · (diffuse · N·L + specular · highlight), where N·L > 0
 #[must_use]
 pub fn shade(scene: &Scene, samples: &Samples, codes: &Codes, highlights: &[f64]) -> Picture {
-    let coded = |light: Vector| light.coordinates().map(|part| codes.of(part));
+    let (width, height) = (samples.width, samples.height);
+    let lights = lights(scene, samples, highlights);
+    Picture {
+        width,
+        height,
+        bits: codes.bits(),
+        codes: lights.into_par_iter().map(|light| coded(codes, light)).collect(),
+    }
+}
+
+/// The picture for looking at, from samples of `side` times as many columns and rows: each pixel is the mean of the
+/// light of `side` times `side` samples, each as bright as the display can show.
+#[must_use]
+pub fn smooth(scene: &Scene, samples: &Samples, codes: &Codes, highlights: &[f64], side: u32) -> Picture {
+    let (width, height) = (samples.width / side, samples.height / side);
+    let lights = lights(scene, samples, highlights);
+    let white = Vector::new(1.0, 1.0, 1.0);
+    let pixel = |index: u32| {
+        let (row, column) = (index / width * side, index % width * side);
+        let rows = (row..row + side).map(|row| (row * samples.width + column) as usize);
+        let of_row = |start: usize| lights.iter().skip(start).take(side as usize);
+        let sum = rows.flat_map(of_row).fold(Vector::default(), |sum, light| sum + light.least(white));
+        coded(codes, sum * (1.0 / f64::from(side * side)))
+    };
+    Picture { width, height, bits: codes.bits(), codes: (0..width * height).into_par_iter().map(pixel).collect() }
+}
+
+fn coded(codes: &Codes, light: Vector) -> [u16; 3] {
+    light.coordinates().map(|part| codes.of(part))
+}
+
+/// Linear light of every pixel, row by row.
+fn lights(scene: &Scene, samples: &Samples, highlights: &[f64]) -> Vec<Vector> {
     let shaded = |(index, pixel): (usize, &super::samples::SurfacePixel)| {
         let material = &scene.materials[usize::from(pixel.material)];
         let mut light = times(material.ambient, scene.ambient_light);
@@ -36,16 +68,15 @@ pub fn shade(scene: &Scene, samples: &Samples, codes: &Codes, highlights: &[f64]
                 light = light + times(source.colour, back);
             }
         }
-        coded(light)
+        light
     };
-    let colours: Vec<[u16; 3]> = samples.pixels.par_iter().enumerate().map(shaded).collect();
+    let colours: Vec<Vector> = samples.pixels.par_iter().enumerate().map(shaded).collect();
     let count = samples.width as usize * samples.height as usize;
-    let mut picture = vec![coded(scene.background); count];
+    let mut picture = vec![scene.background; count];
     for (pixel, colour) in samples.pixels.iter().zip(colours) {
         picture[pixel.pixel as usize] = colour;
     }
-    let (width, height) = (samples.width, samples.height);
-    Picture { width, height, bits: codes.bits(), codes: picture }
+    picture
 }
 
 fn times(one: Vector, other: Vector) -> Vector {

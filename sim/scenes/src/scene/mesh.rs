@@ -32,6 +32,8 @@ pub struct Mesh {
     pub material_of: Vec<Option<u16>>,
     /// The names that `usemtl` says, in the order of the file, each once.
     pub materials: Vec<String>,
+    /// Faces of three corners or fewer that have no area, and so no triangle.
+    pub without_area: usize,
 }
 
 /// A triangle of a face.
@@ -46,13 +48,14 @@ struct Piece {
 struct Pieces<'a> {
     obj: &'a Obj,
     list: Vec<Piece>,
+    without_area: usize,
 }
 
 /// The triangles in the text of a Wavefront OBJ file.
 ///
 /// # Errors
-/// When a line cannot be read, a number is not finite, a face has no area or is no polygon, a normal no direction, or
-/// there is no face at all; with the line.
+/// When a line cannot be read, a number is not finite, a face of four corners or more has no area or is no polygon, a
+/// normal no direction, or there is no face with an area at all; with the line.
 pub fn triangles(text: &str, normals: Normals) -> Result<Vec<Triangle>, MeshError> {
     Mesh::read(text, normals).map(|mesh| mesh.triangles)
 }
@@ -70,7 +73,8 @@ impl Mesh {
             Normals::Smooth => pieces.smooth()?,
         };
         let material_of = pieces.list.iter().map(|piece| piece.material).collect();
-        Ok(Self { triangles, material_of, materials: obj.materials })
+        let without_area = pieces.without_area;
+        Ok(Self { triangles, material_of, materials: obj.materials, without_area })
     }
 }
 
@@ -78,16 +82,23 @@ impl<'a> Pieces<'a> {
     fn of(obj: &'a Obj) -> Result<Self, MeshError> {
         let mut list = Vec::with_capacity(obj.triangle_count());
         let mut places = Vec::new();
+        let (mut without_area, mut last) = (0, 0);
         for face in obj.faces() {
             let line = face.line;
             places.clear();
             places.extend(face.corners.iter().map(|corner| obj.position(*corner)));
             let triangles = polygon::triangles(&places).map_err(|problem| MeshError::Line { line, problem })?;
+            without_area += usize::from(triangles.is_empty());
+            last = line;
             let corner = |index: usize| face.corners.get(index).copied().unwrap_or_default();
             let material = face.material;
             list.extend(triangles.into_iter().map(|of| Piece { line, material, corners: of.map(corner) }));
         }
-        Ok(Self { obj, list })
+        if list.is_empty() {
+            let problem = "no face of the file has an area; move the corners of one apart".into();
+            return Err(MeshError::Line { line: last, problem });
+        }
+        Ok(Self { obj, list, without_area })
     }
 
     fn places(&self, piece: &Piece) -> [Vector; 3] {

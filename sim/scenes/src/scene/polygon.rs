@@ -27,15 +27,19 @@ pub(super) fn plane_normal([a, b, c]: [Vector; 3]) -> Vector {
     (b - a).cross(c - a)
 }
 
-/// The triangles of a polygon, as places in the list of its corners.
+/// The triangles of a polygon, as places in the list of its corners. A triangle without area shows nothing, and
+/// exporters write some: it has none.
 ///
 /// # Errors
-/// Says why there are none.
+/// Says why a polygon of more corners cannot be cut.
 pub(super) fn triangles(corners: &[Vector]) -> Result<Vec<[usize; 3]>, String> {
     let places = distinct(corners);
     let at = |index: usize| corners.get(index).copied().unwrap_or_default();
     if let [a, b, c] = places[..] {
-        return if has_area([a, b, c].map(at)) { Ok(vec![[a, b, c]]) } else { Err(no_area()) };
+        return Ok(if has_area([a, b, c].map(at)) { vec![[a, b, c]] } else { Vec::new() });
+    }
+    if places.len() < 3 {
+        return Ok(Vec::new());
     }
     let points: Vec<Vector> = places.iter().map(|&place| at(place)).collect();
     let triangles = match Flat::of(&points) {

@@ -136,11 +136,8 @@ fn check_asked(certificate: &Certificate, asked: Asked<'_>) -> Result<(), Refuse
     check_demands(certificate, &demands)
 }
 
-/// The configuration asked for, with a word for each exponent where rows are shared.
+/// The configuration asked for, with a word for each exponent that the certificate is about.
 fn wanted_source(certificate: &Certificate, source: &Config) -> Result<Config, Refused> {
-    if certificate.parts.iter().all(|part| part.served.is_none()) {
-        return Ok(source.clone());
-    }
     let exponents = certificate.parts.iter().map(|part| part.n);
     let problem =
         |error: &dyn std::fmt::Display| Refused::Field { field: "parts".to_owned(), problem: error.to_string() };
@@ -177,6 +174,9 @@ fn own_rows(certificate: &Certificate, source: &Design, specialised: &Design) ->
     };
     let demands = certificate.parts.iter().enumerate().map(demand).collect::<Result<Vec<_>, _>>()?;
     let whole = |problem: String| Refused::Field { field: "parts".to_owned(), problem };
+    if !certificate.parts.is_sorted_by(|one, next| one.n < next.n) {
+        return Err(whole("n does not rise from part to part; each exponent has one".to_owned()));
+    }
     let own_or_other = |part: &Part| part.served.map_or(part.n, |served| served.row);
     let rows_of: Vec<f64> = certificate.parts.iter().map(own_or_other).collect();
     let rows = served_rows(source, &demands, &rows_of).map_err(|error| whole(error.to_string()))?;

@@ -2,8 +2,8 @@
 //!
 //! The greatest and the least x are bounded by parts: the whole picture, or the whole mesh, is one, its bound by
 //! interval arithmetic is loose, and the part with the worst bound is cut in two until that bound is near an x that
-//! is presented ([`super::search`]). Parts of spheres and planes are tiles of the picture, parts of meshes are boxes of a
-//! tree and pieces of triangles ([`super::patch`]). Whatever hides a surface is not looked at, which only widens the
+//! is presented ([`super::search`]). Parts of spheres and planes are tiles of the picture, parts of meshes are boxes of
+//! a tree and pieces of triangles ([`super::patch`]). Whatever hides a surface is not looked at, which only widens the
 //! interval.
 
 use rayon::prelude::*;
@@ -17,8 +17,8 @@ use crate::scene::{Light, Scene, Shape, Surface};
 use bounds::interval::Interval;
 
 /// Pictures are computed in f64, whose rounding may move an x out of the bounds of the real ones: far less than this
-/// unless a ball is seen from some 10⁵ of its radii, or a triangle nearly edge on, and what does leave is found where pixels are held against the
-/// bounds ([`super::pixels_outside`]).
+/// unless a ball is seen from some 10⁵ of its radii, or a triangle nearly edge on. What does leave is found where
+/// pixels are held against the bounds ([`super::pixels_outside`]).
 const MARGIN: f64 = 1e-9;
 
 /// What is asked with one exponent.

@@ -51,7 +51,7 @@ pub enum SpecialiseError {
 pub struct AskedRow {
     /// The x that the scene presents with this exponent.
     pub demand: Demand,
-    /// The exponent whose row answers: its own, or one that is near it ([`super::serve`]).
+    /// The exponent whose row answers: its own, or one that is near it ([`serve`](fn@super::serve)).
     pub serving: f64,
     /// Where the source has the demand's own exponent.
     pub address: u32,

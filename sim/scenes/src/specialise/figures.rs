@@ -33,7 +33,9 @@ pub fn left_out(source: &Design, specialised: &Design, rows: &[AskedRow]) -> Vec
         list.push(LeftOut { part: part.to_owned(), before, after, why });
     };
     let rom = |design: &Design| design.rom().depth() as u64;
-    add("ROM words", &rom, format!("the scene has n = {}", specialised.rom().exponents()));
+    let shared = rows.iter().any(|row| row.serving != row.demand.exponent);
+    let of = if shared { "rows that serve the scene:" } else { "the scene has" };
+    add("ROM words", &rom, format!("{of} n = {}", specialised.rom().exponents()));
     let address = |design: &Design| u64::from(design.rom().address_width());
     add("address bits", &address, "for every word, and one more for \"no word\"".to_owned());
     let hardware = |design: &Design| Hardware::of(design, &of_design(design));

@@ -1,5 +1,5 @@
-//! What the triangles of a mesh present, in intervals: boxes of a tree with the normals in them, triangles, and pieces of
-//! triangles.
+//! What the triangles of a mesh present, in intervals: boxes of a tree with the normals in them, triangles, and pieces
+//! of triangles.
 //!
 //! For each of these there is a box of places and a box of normals, on the side that the viewer sees. The camera is one
 //! place, so that it sees a triangle from one side; a triangle that may be seen edge on has normals of both sides. What

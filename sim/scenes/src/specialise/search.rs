@@ -1,5 +1,5 @@
-//! The greatest and the least x of many places, by bounds: the part of them with the worst bound is cut until that bound
-//! is near an x that is presented.
+//! The greatest and the least x of many places, by bounds: the part of them with the worst bound is cut until that
+//! bound is near an x that is presented.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

@@ -1,10 +1,10 @@
 //! The fewest rows of a ROM that serve exponents which are near each other.
 //!
 //! The source has a row for every exponent of the scene: where its configuration has none, one is added
-//! ([`with_words`]). An exponent may be served by any row of the source whose display codes, over every x that the scene
-//! presents with that exponent, differ by at most the allowed from those of its own row. Of these rows the run around
-//! its own counts. So each exponent has an interval of rows, and the fewest rows that meet every interval are found by
-//! taking, again and again, the last row of the interval that ends first.
+//! ([`with_words`]). An exponent may be served by any row of the source whose display codes, over every x that the
+//! scene presents with that exponent, differ by at most the allowed from those of its own row. Of these rows the run
+//! around its own counts. So each exponent has an interval of rows, and the fewest rows that meet every interval are
+//! found by taking, again and again, a row of the interval that ends first which all that overlap its end have too.
 //!
 //! Intervals are found at some x, and what is taken is held against every x; a row that fails there is left out of its
 //! interval, and the search begins again. What comes out is proved once more by the certificate.

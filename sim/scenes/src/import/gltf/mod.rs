@@ -19,6 +19,8 @@ mod walk;
 
 use std::io;
 
+use gltf::json::validation::Checked;
+
 use crate::scene::{Angle, Mesh, Normals};
 
 use super::error::ImportError;
@@ -37,7 +39,10 @@ pub fn gltf(
     read: &mut dyn FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<Imported, ImportError> {
     let refused = |error: gltf::Error| ImportError::Gltf(error.to_string());
-    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(bytes).map_err(refused)?;
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice_without_validation(bytes).map_err(refused)?;
+    let root = document.into_json();
+    positions_exist(&root)?;
+    let document = gltf::Document::from_json(root).map_err(refused)?;
     let buffers = buffers::all(&document, blob, read)?;
     let mut text = ObjText::new(&wish.name);
     let mut names = material::Names::of(&document);
@@ -53,6 +58,19 @@ pub fn gltf(
     let said = format!("Imported from glTF as {}, with camera and light that were chosen", wish.mesh);
     let description = framing::scene(wish, said, corners, materials, Normals::Smooth, Angle::Blinn)?;
     Ok(Imported { description, treated, remarks, mesh: Some(text) })
+}
+
+/// What the crate's own validation takes for granted: it would panic.
+fn positions_exist(root: &gltf::json::Root) -> Result<(), ImportError> {
+    let positions = Checked::Valid(gltf::Semantic::Positions);
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    for index in primitives.filter_map(|primitive| primitive.attributes.get(&positions)) {
+        if index.value() >= root.accessors.len() {
+            let (index, count) = (index.value(), root.accessors.len());
+            return Err(ImportError::Gltf(format!("accessor {index} does not exist; there are {count}")));
+        }
+    }
+    Ok(())
 }
 
 /// What the file has and a scene has no place for.

@@ -71,6 +71,7 @@ fn damaged_documents_are_refused() {
     for (from, to, says) in [
         ("\"count\": 4", "\"count\": 400", "beyond the end"),
         ("\"count\": 4", "\"count\": 4000000000", "too many"),
+        ("\"POSITION\": 0", "\"POSITION\": 7", "accessor 7 does not exist"),
         ("5126", "5121", "32-bit floats"),
         ("5123, \"count\": 3, \"type\": \"SCALAR\"", "5126, \"count\": 1, \"type\": \"SCALAR\"", "whole numbers"),
         ("\"scale\": [1, 2, 1]", "\"children\": [0]", "below itself"),
