@@ -142,10 +142,10 @@ fn said(error: &clap::Error) -> ExitCode {
     let text = error.render().to_string();
     let narrow: Vec<String> = text.lines().map(|line| folded(line, CONTINUED)).collect();
     // Where nobody listens any more, the exit status alone tells. Colours are clap's.
-    let _ = if narrow.iter().any(|line| line.contains('\n')) {
-        writeln!(io::stderr(), "{}", narrow.join("\n"))
-    } else {
-        error.print()
+    let _ = match narrow.iter().any(|line| line.contains('\n')) {
+        true if error.use_stderr() => writeln!(io::stderr(), "{}", narrow.join("\n")),
+        true => writeln!(io::stdout(), "{}", narrow.join("\n")),
+        false => error.print(),
     };
     ExitCode::from(error.exit_code() as u8)
 }

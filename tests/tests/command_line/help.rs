@@ -6,7 +6,7 @@ use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 22] = [
     "report",
     "vectors",
     "rtl",
@@ -27,6 +27,8 @@ const COMMANDS: [&str; 20] = [
     "scene",
     "specialise",
     "shard",
+    "completions",
+    "man",
 ];
 
 /// The command lines after "Example:" or "Examples:".
@@ -70,7 +72,8 @@ fn every_command_is_listed_and_has_an_example() {
         assert!(help.starts_with(listed), "{listed:?} does not begin {help}");
         let (described, _) = help.split_once("\nUsage: ").expect("a usage");
         assert!(described.lines().count() > 2, "no more than the list says: {described}");
-        let has_no_format = ["vectors", "rtl", "check", "document", "mesh", "shard"].contains(&command);
+        let without = ["vectors", "rtl", "check", "document", "mesh", "shard", "completions", "man"];
+        let has_no_format = without.contains(&command);
         assert!(help.contains("--format") || has_no_format, "{help}");
     }
     assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));

@@ -221,9 +221,13 @@ pub(crate) fn parts_bound_the_total(row: &BTreeMap<String, String>) {
 #[test]
 fn parts_are_greatest_at_an_x_of_their_own() {
     let bench = bench!();
-    let mut explained = 0;
-    for preset in ["paper", "compact", "precise", "tangent"] {
-        let text = bench.run(&format!("report --preset {preset}")).stdout;
+    let shown = bench.good("presets show compact");
+    // So few x that none lies where the method errs most.
+    let lines = shown.lines().filter(|line| !line.contains("multiplier_operand"));
+    let coarse = lines.collect::<Vec<_>>().join("\n").replace("1..=256", "200,256").replace("UQ1.23", "UQ1.9");
+    bench.write("coarse.json", coarse);
+    for (which, explained) in [("--preset compact", false), ("--config coarse.json", true)] {
+        let text = bench.run(&format!("report {which}")).stdout;
         let percent = |name: &str| -> f64 {
             let line = text.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
             assert!(line.contains(" % at ") && line.contains("x = "), "{line}");
@@ -231,8 +235,6 @@ fn parts_are_greatest_at_an_x_of_their_own() {
         };
         let total = percent("worst total error");
         let above = ["method  ", "ROM coefficients", "data path"].into_iter().any(|part| percent(part) > total);
-        assert_eq!(above, text.contains("(a part is greater than the total"), "{text}");
-        explained += u32::from(above);
+        assert_eq!((above, text.contains("(a part is greater than the total")), (explained, explained), "{text}");
     }
-    assert!(explained > 0, "no preset has such a part");
 }
