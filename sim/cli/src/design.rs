@@ -88,8 +88,8 @@ fn over(text: &str) -> Result<Over, String> {
 
 /// What the columns of the ranking are, and what a verdict means.
 const COLUMNS: &str = "deg, seg: degree and number of the polynomials. cut: they end where x^n is this. below: what \
-                       answers below the cut. round: the rounding mode. real: the greatest error in real numbers. mult, \
-                       rom: bits of multipliers and of the ROM. lat: latency in cycles. CHOSEN: the least, which \
+                       answers below the cut. round: the rounding mode. real: the greatest error in real numbers. \
+                       mult, rom: bits of multipliers and of the ROM. lat: latency in cycles. CHOSEN: the least, which \
                        follows. narrowed: widths were taken away bit by bit as far as the error allows. proved: the \
                        widths are, and their hardware is no candidate for narrowing. no widths: none are proved to \
                        keep what the real error leaves, or no ranks reach the clock. too far: more than allowed.";

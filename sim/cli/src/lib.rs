@@ -58,9 +58,10 @@ use table::folded;
 
 /// Bit-accurate, cycle-accurate model of a specular-highlight shading pipeline.
 ///
-/// The pipeline computes cos(γ)^n, the highlight of Phong shading, by a polynomial whose coefficients sit in a ROM. blysk
-/// models it bit for bit and cycle for cycle. It measures and proves the error of a configuration, searches for better
-/// ones, writes RTL with vectors and a testbench, judges what your own simulation answers, and draws with the result.
+/// The pipeline computes cos(γ)^n, the highlight of Phong shading, by a polynomial whose coefficients sit in a ROM.
+/// blysk models it bit for bit and cycle for cycle. It measures and proves the error of a configuration, searches for
+/// better ones, writes RTL with vectors and a testbench, judges what your own simulation answers, and draws with the
+/// result.
 #[derive(Parser)]
 #[command(name = "blysk", version, max_term_width = 100)]
 #[command(after_help = "Start with: blysk presets; blysk report --preset paper --out results\n\
@@ -128,8 +129,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// What the next line of an error begins with, where the error is wider than a terminal. Errors are folded in a pipe too,
-/// so that what a log has is what was seen.
+/// What the next line of an error begins with, where the error is wider than a terminal. Errors are folded in a pipe
+/// too, so that what a log has is what was seen.
 const CONTINUED: &str = "    ";
 
 fn parsed() -> Result<Cli, clap::Error> {

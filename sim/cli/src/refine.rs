@@ -25,7 +25,8 @@ use analysis::refine::{Found, Options, Range, Refined, refine, samples};
 /// within --reach is better. The configuration that --out writes has the steps from the rounded coefficients in
 /// `coefficient_steps`, and states its widths, so that the steps keep their meaning. A summary is printed, and with
 /// --rows a table of the greatest error before and after, the greatest error of the method with real coefficients, and
-/// the differences between these in output ulp; csv and json are that table. All 256 rows of preset precise take half a minute of one core.
+/// the differences between these in output ulp; csv and json are that table. All 256 rows of preset precise take half
+/// a minute of one core.
 #[derive(ClapArgs)]
 #[command(after_help = "Examples: blysk refine --preset compact --exponents 64,128 --out refined.json\n          \
                         blysk refine --config mine.json --format csv")]

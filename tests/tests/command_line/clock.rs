@@ -161,7 +161,8 @@ fn what_is_no_clock_is_refused() {
     assert!(run.status == 2 && run.stderr.contains("leave \"pipelining\" out, or the clock"), "{}", run.stderr);
 }
 
-/// The design that is found has the ranks, and the error that was asked for at every x. It may be another than without a clock: a lower degree takes fewer of them.
+/// The design that is found has the ranks, and the error that was asked for at every x. It may be another than without
+/// a clock: a lower degree takes fewer of them.
 #[test]
 fn a_search_keeps_the_clock() {
     let bench = bench!();

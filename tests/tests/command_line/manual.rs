@@ -78,7 +78,8 @@ fn shells_take_their_completions() {
         }
     }
     // What bash offers, as it asks for it.
-    let ask = "source blysk.bash; COMP_WORDS=(blysk pareto --no); COMP_CWORD=2; _blysk blysk --no pareto; echo ${COMPREPLY[*]}";
+    let ask = "source blysk.bash; COMP_WORDS=(blysk pareto --no); COMP_CWORD=2; _blysk blysk --no pareto; \
+               echo ${COMPREPLY[*]}";
     let asked = Command::new("bash").args(["-c", ask]).current_dir(bench.path("")).output().unwrap();
     assert_eq!(String::from_utf8_lossy(&asked.stdout), "--no-timing\n", "{asked:?}");
     bench.refused("completions tcsh", &["tcsh", "bash", "fish"]);

@@ -93,11 +93,13 @@ fn c_program(sources: &[String]) -> String {
         text += &renamed.replace("blysk_table", &format!("table_{case}"));
     }
     text += "int main(void)\n{\n    unsigned which, row, bits;\n    float x, value = 0;\n\
-             while (scanf(\"%u %u %x\", &which, &row, &bits) == 3) {\n    memcpy(&x, &bits, 4);\n    switch (which) {\n";
+             while (scanf(\"%u %u %x\", &which, &row, &bits) == 3) {\n    memcpy(&x, &bits, 4);\n\
+             switch (which) {\n";
     for case in 0..sources.len() {
         writeln!(text, "    case {case}: value = highlight_{case}((int)row, x); break;").unwrap();
     }
-    text + "    }\n    memcpy(&bits, &value, 4);\n    printf(\"%x\\n\", bits);\n    }\n    return clamp(0, 0, 0) > 0;\n}\n"
+    text + "    }\n    memcpy(&bits, &value, 4);\n    printf(\"%x\\n\", bits);\n    }\n\
+            return clamp(0, 0, 0) > 0;\n}\n"
 }
 
 /// Constants without a letter are f32 in shaders.

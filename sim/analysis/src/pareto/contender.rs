@@ -153,8 +153,8 @@ pub struct Contenders {
 }
 
 impl Contenders {
-    /// All of them for these inputs; `own` are configurations beside the presets, of which input and exponents are those
-    /// of all.
+    /// All of them for these inputs; `own` are configurations beside the presets, with the input and the exponents of
+    /// all.
     ///
     /// # Errors
     /// When an exponent is out of range, a preset or configuration gives no hardware for these inputs, or two

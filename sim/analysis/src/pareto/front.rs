@@ -20,8 +20,9 @@ pub(crate) fn dominators<const AXES: usize>(points: &[[f64; AXES]]) -> Vec<Optio
 /// The same for points of a time, which is known within a spread, and an error. One dominates another where it is
 /// quicker beyond the spread of both and its error no greater, or where the spreads overlap and its error is less.
 ///
-/// An overlap is not transitive. So the one that is named is on the front where one of those is above, and otherwise the
-/// one with the least error. (There is no way round: along it errors fall, and where they are equal spreads move apart.)
+/// An overlap is not transitive. So the one that is named is on the front where one of those is above, and otherwise
+/// the one with the least error. (There is no way round: along it errors fall, and where they are equal spreads move
+/// apart.)
 #[must_use]
 pub(crate) fn dominators_in_time(points: &[Timed]) -> Vec<Option<usize>> {
     named(points.len(), |a, b| points[a].dominates(&points[b]), |place| points[place].error)

@@ -43,7 +43,8 @@ pub struct Request {
 }
 
 impl Request {
-    /// What the configuration is called, after what is asked: `designed_UQ1p10_UQ1p10_0p01`. Names of files have no point.
+    /// What the configuration is called, after what is asked: `designed_UQ1p10_UQ1p10_0p01`. Names of files have no
+    /// point.
     pub(super) fn name(&self) -> String {
         format!("designed_{}_{}_{}", self.input, self.output, self.error).replace('.', "p")
     }
