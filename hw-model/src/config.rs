@@ -223,16 +223,15 @@ impl Config {
         text
     }
 
-    /// The same for x of another format. A stated cut or hand-over finer than the new x is left out: the derived one is
-    /// as fine as x.
+    /// The same for other x and exponents. Stated formats of cut and hand-over are for those that it had: where these
+    /// are others, the ends are as fine as x.
     #[must_use]
-    pub fn with_input(mut self, input: QFormat) -> Self {
-        for end in [Register::Cut, Register::HandOver(1)] {
-            if self.widths[end].is_some_and(|format| format.fraction_bits() > input.fraction_bits()) {
-                self.widths.set(end, None);
-            }
+    pub fn with_inputs(mut self, input: QFormat, exponents: Exponents) -> Self {
+        if input != self.input || exponents != self.exponents {
+            self.widths.set(Register::Cut, None);
+            self.widths.set(Register::HandOver(1), None);
         }
-        Self { input, ..self }
+        Self { input, exponents, ..self }
     }
 
     /// What stands around the data path.
@@ -399,7 +398,7 @@ impl Config {
                 return wrong(
                     name,
                     "it is compared with x and at most 1: give an unsigned format with at most one \
-                     integer bit and no more fraction bits than the input's",
+                     integer bit and no more fraction bits than the input's, or leave it out",
                 );
             }
         }

@@ -100,8 +100,7 @@ values!(double, f64);
 /// The preset for these inputs, asked one x at a time.
 fn preset(name: &str) -> impl Fn(u32, u64) -> f64 {
     let config: Config = presets::find(name).expect("a preset").config().expect("it parses");
-    let mut config = config.with_input("UQ1.10".parse().expect("a format"));
-    config.exponents = "1..=8".parse().expect("a list");
+    let config = config.with_inputs("UQ1.10".parse().expect("a format"), "1..=8".parse().expect("a list"));
     let design = Design::new(config).expect("hardware");
     move |n, k| {
         let answer = design.datapath().evaluate(n - 1, k as i64).intensity;

@@ -42,7 +42,7 @@ fn work_that_is_counted_has_a_bar() {
         ("specialise scene.json --config small.json --count 16 --out special", "of 513 samples"),
         ("specialise --check special/certificate.json", "of 513 samples"),
         ("render scene.json --config small.json", "of 64 pixels"),
-        ("refine --config small.json", "samples, "),
+        ("refine --config small.json", "of 810 samples"),
         ("report --config small.json --exhaustive --bound 1", "of 4,104 samples"),
     ] {
         let shown = shown(&bench, &format!("blysk {line}"));

@@ -245,7 +245,7 @@ fn hardware_of_preset(preset: Preset, inputs: &Inputs) -> Result<Contender, Cont
 
 /// The contender of this name, with the exponents and the input of all.
 fn hardware(name: String, config: Config, inputs: &Inputs) -> Result<Contender, ContenderError> {
-    let config = Config { exponents: inputs.exponents.clone(), ..config.with_input(inputs.format) };
+    let config = config.with_inputs(inputs.format, inputs.exponents.clone());
     let (what, family) = (config.description.clone(), config.name.clone());
     let design = Design::new(config).map_err(|source| ContenderError::Design {
         name: name.clone(),
