@@ -57,12 +57,16 @@ fn the_polynomial_of_every_preset_agrees_with_compile_time_types() {
         let (config, datapath) = (design.config(), design.datapath());
         let Some(formats) = &datapath.formats().polynomial else { continue };
         let one = config.input.one();
+        // Ends of fewer bits than x get zeros behind them.
+        let up = |format: Option<QFormat>| format.map_or(0, |f| config.input.fraction_bits() - f.fraction_bits());
+        let (cut_up, hand_over_up) = (up(datapath.formats().cut), up(datapath.formats().hand_over));
         for (address, row) in datapath.rom().rows().iter().enumerate() {
-            let cut = row.get(Register::Cut);
+            let cut = row.get(Register::Cut) << cut_up;
+            let hand_over = row.get(Register::HandOver(1)) << hand_over_up;
             for step in 0..=STEPS {
                 let x = cut + (one - cut) * step / STEPS;
-                let segment = usize::from(x < row.get(Register::HandOver(1)));
-                let start = if segment == 1 { row.get(Register::HandOver(1)) } else { one };
+                let segment = usize::from(x < hand_over);
+                let start = if segment == 1 { hand_over } else { one };
                 let shift = Register::Shift(segment);
                 let s = exact(start - x, config.input);
                 let v = match config.form {
