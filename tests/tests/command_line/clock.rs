@@ -38,7 +38,7 @@ fn parts_add_up_to_the_longest_path() {
 fn registers_of_blocks_take_what_the_table_says() {
     let bench = bench!();
     let ranks = json!({"rom": true, "operands": true, "product": 1, "sum": true});
-    bench.write("small.json", &with("pipelining", ranks));
+    bench.write("small.json", with("pipelining", ranks));
     bench.write("without.json", DELAYS);
     let mut table: Value = serde_json::from_str(DELAYS).unwrap();
     table["rom_to_register"] = json!(0.0);
