@@ -66,7 +66,7 @@ def measures(model):
         return model.registers(address=63, x_bits=x).bits()
 
     def read_all(x):
-        return [register.value for register in model.registers(address=63, x_bits=x).values()]
+        return [register.bits for register in model.registers(address=63, x_bits=x).values()]
 
     return [
         ("array, one address", a_sample(lambda: model.evaluate(63, xs)), "block", "samples"),
@@ -78,7 +78,7 @@ def measures(model):
         ("`evaluate`, a call", a_call(lambda x: model.evaluate(63, x)), "scalar", None),
         ("`registers`, a call", a_call(lambda x: model.registers(address=63, x_bits=x)), "registers", None),
         ("`registers`, and all bits read", a_call(read_bits), "registers", None),
-        ("`registers`, and every value read", a_call(read_all), "registers", None),
+        ("`registers`, and every one read", a_call(read_all), "registers", None),
         ("`tick`, a call", a_call(lambda x: tick(True, 63, x, x & 7 != 0)), "tick", None),
     ]
 
