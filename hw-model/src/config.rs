@@ -204,18 +204,12 @@ fn wrong<T>(field: &'static str, problem: impl Into<String>) -> Result<T, Config
 }
 
 impl Config {
-    /// Parses and checks a configuration. A stated cut or hand-over that is finer than x is left out, as those that are
-    /// derived are as fine as x: so the input of a configuration can be made coarser by its line alone.
+    /// Parses and checks a configuration.
     ///
     /// # Errors
     /// When the text is not a configuration, or a field cannot be used.
     pub fn from_json(text: &str) -> Result<Self, ConfigError> {
-        let mut config: Self = serde_json::from_str(text)?;
-        for end in [Register::Cut, Register::HandOver(1)] {
-            if config.widths[end].is_some_and(|stated| stated.fraction_bits() > config.input.fraction_bits()) {
-                config.widths.set(end, None);
-            }
-        }
+        let config: Self = serde_json::from_str(text)?;
         config.check()?;
         Ok(config)
     }

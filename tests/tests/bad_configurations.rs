@@ -109,6 +109,7 @@ fn fields_that_cannot_be_used_are_named() {
         (json!({"cut": "minimum"}), vec!["`cut`", "epicentre"]),
         (json!({"form": "centered"}), vec!["centered", "centred"]),
         (json!({"widths": {"cut": "Q1.4"}}), vec!["`widths.cut`", "give an unsigned format"]),
+        (json!({"widths": {"cut": "UQ1.40"}}), vec!["`widths.cut`", "no more fraction bits"]),
         (json!({"widths": {"cut": "UQ2.2"}}), vec!["`widths.cut`", "at most one integer bit"]),
         (json!({"widths": {"hand_over": "UQ1.2"}}), vec!["`widths.hand_over`", "two segments"]),
         (json!({"rounding": "up"}), vec!["up", "nearest_up", "toward_zero"]),
@@ -318,19 +319,6 @@ fn the_narrowest_and_the_widest_make_hardware_that_agrees() {
     println!("{made_count} designs, {compared} inputs");
     assert!(refusals.is_empty(), "{refusals:#?}");
     assert!(made_count >= 25 && compared > 5000, "{made_count} {compared}");
-}
-
-/// A configuration whose input is made coarser by its line alone is none to refuse: x has no places beyond its own.
-#[test]
-fn an_end_that_is_finer_than_x_is_as_fine_as_x() {
-    let with = |widths: Value| {
-        let fields = json!({"name": "ends", "method": "minimax", "exponents": "1..=8", "input": "UQ1.7",
-            "output": "UQ1.8", "cut": "balanced", "segments": 2, "widths": widths});
-        Config::from_json(&fields.to_string()).unwrap()
-    };
-    assert_eq!(with(json!({"cut": "UQ0.8", "hand_over": "UQ1.40"})), with(json!({})));
-    let coarser = with(json!({"cut": "UQ0.7", "hand_over": "UQ1.6"}));
-    assert_eq!(coarser.widths.iter().count(), 2);
 }
 
 #[test]

@@ -134,6 +134,7 @@ fn formats_that_cannot_be_used_or_could_overflow() {
         // Compared with x: between 0 and 1, in no finer unit.
         (more("\"cut\": \"Q2.5\""), &["`widths.cut`", "unsigned"]),
         (more("\"cut\": \"UQ2.5\""), &["`widths.cut`", "one integer bit"]),
+        (more("\"cut\": \"UQ1.10\""), &["`widths.cut`", "fraction bits than the input's"]),
         (more("\"hand_over\": \"UQ1.9\""), &["`widths.hand_over`", "two segments"]),
         // Wide enough, and too coarse for the error budget.
         (more("\"t2\": \"Q9.1\""), &["error budget", "error_budget_ulp"]),
