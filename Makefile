@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := all
 .PHONY: all digests docs pictures setup setup-all test peers python rtl bench pareto exhaustive cluster formal formal-quick synth gates mutants mutants-rust fuzz \
-	alterations c header install uvm clean help
+	alterations c header install uvm book package clean help
 
 CARGO ?= cargo
 RESULTS ?= results
@@ -82,6 +82,7 @@ test: setup ## everything that is checked: format, spelling, lints, documentatio
 	$(CARGO) clippy $(CHECKED) --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc $(CHECKED) --workspace --no-deps --locked
 	$(CARGO) test $(CHECKED) --workspace --locked
+	$(PACKAGE) --no-verify --allow-dirty --quiet
 	@tests/netlist/test_block_registers.py
 	@scripts/synth.py --check --blysk $(TESTED)
 	@scripts/delays.py --check --blysk $(TESTED)
@@ -175,6 +176,15 @@ install: ## the command, its completions and manual pages, and the C library, in
 	@scripts/command-pages $(TARGET)/release/blysk $(DESTDIR)$(PREFIX)
 	@scripts/c-library $(TARGET)/release $(DESTDIR)$(PREFIX) $(PREFIX)
 	@echo "Installed in $(DESTDIR)$(PREFIX); try: PKG_CONFIG_PATH=$(PREFIX)/lib/pkgconfig pkg-config --libs blysk"
+
+book: ## the pages of docs/ as a book in target/book/, where mdBook is installed
+	@command -v mdbook > /dev/null || { echo "make book: mdbook is missing; cargo install --locked mdbook" >&2; exit 1; }
+	mdbook build
+
+# Without the tests' crates, which nobody depends on.
+PACKAGE = $(CARGO) package --workspace --exclude blysk-tests --exclude naive --locked
+package: ## the crates as they would be published, each built from its own package; minutes
+	$(PACKAGE)
 
 clean: ## remove everything that was built or written
 	$(CARGO) clean

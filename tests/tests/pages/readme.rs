@@ -1,4 +1,4 @@
-//! The commands of README and of docs/COMMANDS.md work as they are printed, one after the other, in a directory that
+//! The commands of README, docs/COMMANDS.md and the tutorials work as they are printed, one after the other, in a directory that
 //! has nothing but the files of docs/ they name; and what the pages show of their output is there.
 
 use std::collections::BTreeSet;
@@ -100,6 +100,16 @@ fn commands_of_their_page_work_in_an_empty_directory() {
     let commands = commands(&text("docs/COMMANDS.md"));
     assert!(commands.len() > 20, "{commands:?}");
     work(&commands);
+}
+
+/// A tutorial breaks what it wrote, and shows what is said of it.
+#[test]
+fn commands_of_the_tutorials_work_in_an_empty_directory() {
+    for (page, least) in [("hardware", 20), ("verification", 8), ("graphics", 10)] {
+        let commands = commands(&text(&format!("docs/tutorial/{page}.md")));
+        let shown = work(&commands);
+        assert!(commands.len() >= 6 && shown >= least, "{page}: {} commands, {shown} lines of output", commands.len());
+    }
 }
 
 /// Runs commands in an empty directory; gives how many lines are shown of what they print.
