@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::Args as ClapArgs;
-use hw_model::clock::{Clock, Device, longest, paths};
+use hw_model::clock::{Clock, Delays, Device, longest, paths};
 use hw_model::design::Design;
 use hw_model::pipelining::Pipelining;
 use vectors::configuration_file;
@@ -36,8 +36,7 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let device = device(&args.device)?;
-    let delays = device.delays().map_err(anyhow::Error::msg).context("--device")?;
-    delays.check().map_err(anyhow::Error::msg).with_context(|| format!("--device {}", args.device))?;
+    let delays = delays(&args.device)?;
     let mut design = args.configuration.design()?;
     if let Some(mhz) = args.mhz {
         let mut config = design.config().clone();
@@ -73,6 +72,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     rows.print(out, args.format, 4)?;
     Ok(Outcome::Good)
+}
+
+/// What the parts of a device take: of `--device`, checked.
+pub(super) fn delays(text: &str) -> anyhow::Result<Delays> {
+    let delays = device(text)?.delays().map_err(anyhow::Error::msg).context("--device")?;
+    delays.check().map_err(anyhow::Error::msg).with_context(|| format!("--device {text}"))?;
+    Ok(delays)
 }
 
 /// A table that comes with Blysk, or one in a file.

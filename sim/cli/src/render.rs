@@ -10,6 +10,7 @@ use hw_model::design::Design;
 use rayon::prelude::*;
 
 use super::bar::Bar;
+use super::clock::delays;
 use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
@@ -18,8 +19,8 @@ use super::render_more::{designs, pipelines, print_compared, smoothed, square};
 use super::scene::{Loaded, load, resized};
 use super::table::{Cell, Format, Rows, counted, digits, write_folded};
 use scenes::render::{
-    Answers, Codes, Cycles, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, compare, difference,
-    encode, heat_map, methods, reference, samples, shade, side_by_side,
+    Answers, Codes, Cycles, FrameClock, Picture, RowFor, Samples, ScenePipeline, Which, Zone, by_material, compare,
+    difference, encode, heat_map, methods, reference, samples, shade, side_by_side,
 };
 use scenes::report::{self as files, RenderReport};
 use scenes::scene::Scene;
@@ -58,13 +59,21 @@ pub(super) struct Args {
     /// for looking at. Figures and the other pictures stay those of one sample in a pixel.
     #[arg(long, value_name = "COUNT", requires = "out", value_parser = square)]
     samples_per_pixel: Option<u32>,
+    /// The end of the scale of difference.png and compare.png, in display codes, so that several pictures have the same
+    /// one; without it the greatest difference that there is, four codes at least.
+    #[arg(long, value_name = "CODES", requires = "out", value_parser = clap::value_parser!(u16).range(1..))]
+    scale: Option<u16>,
     /// Answer for an exponent without a word in the ROM by the nearest that has one, by ratio. The comparison stays
     /// with x^n of the scene's own n, so that the column `linear codes` tells what each material pays.
     #[arg(long)]
     nearest: bool,
-    /// The clock of the hardware, from which frames a second follow, in MHz.
-    #[arg(long, value_name = "MHZ", default_value_t = 100.0, value_parser = clock)]
-    clock_mhz: f64,
+    /// The clock of the hardware, from which frames a second follow, in MHz; without it the one that the pipeline's own
+    /// ranks of registers reach on the device, by the estimate of `blysk clock`.
+    #[arg(long, value_name = "MHZ", value_parser = clock)]
+    clock_mhz: Option<f64>,
+    /// The device of that estimate: ecp5, up5k, or a JSON file with its delays in nanoseconds.
+    #[arg(long, value_name = "NAME|FILE", default_value = "ecp5", conflicts_with = "clock_mhz")]
+    device: String,
     /// How to print; csv and json are those of the files.
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -86,6 +95,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let scene_name = || args.scene.display().to_string();
     let Loaded { mut scene, files: read } = load(&args.scene)?;
     resized(&mut scene, args.size)?;
+    let clock = frame_clock(args)?;
     let rows = if args.nearest { RowFor::Nearest } else { RowFor::Exactly };
     let pipeline = ScenePipeline::with_rows(design, &scene, rows).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
@@ -103,13 +113,13 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let traced = begun.elapsed();
     let highlights = Highlights::new(&pipeline, &samples);
     let rendered = Rendered::new(&scene, &samples, &pipeline, &highlights);
-    let rows_compared = compare(&scene, &samples, &compared);
-    let report = report(args, &scene, &samples, &pipeline, &rendered, &highlights);
+    let rows_compared = compare(&scene, &samples, &compared, &clock);
+    let report = report(&scene, &samples, &pipeline, &clock, &rendered, &highlights);
     if let Some(mut set) = set {
-        let pictures = pictures(&scene, &samples, design, &rendered)?;
+        let pictures = pictures(&scene, &samples, design, &rendered, args.scale)?;
         files::write(&mut set, &report, &pictures)?;
         if !compared.is_empty() {
-            files::write_compared(&mut set, &rows_compared, &side_by_side(&scene, &samples, &compared)?)?;
+            files::write_compared(&mut set, &rows_compared, &side_by_side(&scene, &samples, &compared, args.scale)?)?;
         }
         if let Some(side) = args.samples_per_pixel {
             set.write(files::SMOOTH, smoothed(&scene, design, rows, side)?)?;
@@ -186,16 +196,25 @@ impl Rendered {
     }
 }
 
+/// The stated clock, or the device to estimate it for.
+fn frame_clock(args: &Args) -> anyhow::Result<FrameClock> {
+    Ok(match args.clock_mhz {
+        Some(mhz) => FrameClock::Stated(mhz),
+        None => FrameClock::Estimated { device: args.device.clone(), delays: delays(&args.device)? },
+    })
+}
+
 fn report(
-    args: &Args,
     scene: &Scene,
     samples: &Samples,
     pipeline: &ScenePipeline<'_>,
+    clock: &FrameClock,
     rendered: &Rendered,
     highlights: &Highlights,
 ) -> RenderReport {
     let (answers, image) = (&highlights.needed, &scene.image);
-    let cycles = |requests| Cycles::new(pipeline, requests, args.clock_mhz);
+    let clock_mhz = clock.mhz(pipeline.design());
+    let cycles = |requests| Cycles::new(pipeline, requests, clock_mhz);
     RenderReport {
         scene: scene.name.clone(),
         configuration: pipeline.design().config().name.clone(),
@@ -208,13 +227,20 @@ fn report(
         background_pixels: files::background(scene, samples.pixels.len()),
         picture: difference(&rendered.pipeline, &rendered.reference),
         materials: by_material(scene, samples, answers, &rendered.highlights, &rendered.ideal),
-        clock_mhz: args.clock_mhz,
+        clock_mhz,
+        clock_device: clock.device().map(str::to_owned),
         every: cycles(highlights.every_requests),
         needed: cycles(answers.requests),
     }
 }
 
-fn pictures(scene: &Scene, samples: &Samples, design: &Design, rendered: &Rendered) -> anyhow::Result<[Vec<u8>; 4]> {
+fn pictures(
+    scene: &Scene,
+    samples: &Samples,
+    design: &Design,
+    rendered: &Rendered,
+    scale: Option<u16>,
+) -> anyhow::Result<[Vec<u8>; 4]> {
     let transfer = scene.image.transfer;
     let made: Vec<anyhow::Result<Vec<u8>>> = (0..files::PICTURES.len())
         .into_par_iter()
@@ -222,7 +248,7 @@ fn pictures(scene: &Scene, samples: &Samples, design: &Design, rendered: &Render
             let picture = match index {
                 0 => encode(&rendered.reference, transfer).map_err(anyhow::Error::from),
                 1 => encode(&rendered.pipeline, transfer).map_err(anyhow::Error::from),
-                2 => heat_map(&rendered.pipeline, &rendered.reference).map_err(anyhow::Error::from),
+                2 => heat_map(&rendered.pipeline, &rendered.reference, scale).map_err(anyhow::Error::from),
                 _ => methods(scene, samples, design.config()).map_err(anyhow::Error::from),
             };
             picture.with_context(|| files::PICTURES[index])
@@ -306,7 +332,10 @@ fn regions(report: &RenderReport, out: &mut Out) -> anyhow::Result<()> {
 }
 
 fn cycles(report: &RenderReport) -> Rows {
-    let clock = format!("frames a second at {} MHz", digits(report.clock_mhz, 6));
+    let clock = match &report.clock_device {
+        Some(device) => format!("frames a second at {:.1} MHz, estimated for {device}", report.clock_mhz),
+        None => format!("frames a second at {} MHz", digits(report.clock_mhz, 6)),
+    };
     let mut rows = Rows::new(&["to the pipeline", "requests", "cycles of a frame", &clock]);
     for (name, cycles) in [("every sample", &report.every), ("those that need it", &report.needed)] {
         rows.push(vec![

@@ -62,7 +62,9 @@ pub(super) fn print_compared(compared: &[Compared], out: &mut Out) -> anyhow::Re
     if compared.is_empty() {
         return Ok(());
     }
-    let mut rows = Rows::new(&["pipeline", "codes", "mean", "PSNR, dB", "pixels", "linear", "display", "latency"]);
+    let mut rows = Rows::new(&[
+        "pipeline", "codes", "mean", "PSNR, dB", "pixels", "linear", "display", "latency", "MHz", "frames/s",
+    ]);
     for one in compared {
         rows.push(vec![
             one.configuration.as_str().into(),
@@ -73,6 +75,8 @@ pub(super) fn print_compared(compared: &[Compared], out: &mut Out) -> anyhow::Re
             one.highlight_greatest_linear_codes.into(),
             Cell::Integer(one.highlight_greatest_display_codes.into()),
             Cell::Integer(one.latency as i64),
+            one.clock_mhz.into(),
+            one.frames_per_second.into(),
         ]);
     }
     writeln!(out)?;

@@ -134,23 +134,37 @@ fn round_ratio_outward((low, high): (f64, f64)) -> (f64, f64) {
     (below, above)
 }
 
-/// The words under a tick: plain decimals where they are short, powers of ten elsewhere.
-pub(super) fn tick_label(value: f64, scale: Scale) -> String {
-    // Ticks of a logarithmic axis stand closer, and most are powers of ten.
-    let plain = match scale {
-        Scale::Linear => 1e-3..1e6,
-        Scale::Log => 1e-2..1e4,
-    };
-    let size = value.abs();
-    let text = if size == 0.0 {
-        "0".to_owned()
-    } else if plain.contains(&(size * (1.0 + 1e-9))) {
-        trimmed(format!("{size:.6}"))
-    } else {
-        power_of_ten(size)
-    };
-    let sign = if value < 0.0 { "−" } else { "" };
-    format!("{sign}{text}")
+/// How the ticks of one axis are written: all as plain decimals where these are short, all as powers of ten elsewhere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Ticks {
+    plain: bool,
+}
+
+impl Ticks {
+    /// For an axis with these ends.
+    pub(super) fn new(scale: Scale, (low, high): (f64, f64)) -> Self {
+        // Ticks of a logarithmic axis stand closer, and most are powers of ten.
+        let plain = match scale {
+            Scale::Linear => 1e-3..1e6,
+            Scale::Log => 1e-2..1e4,
+        };
+        let plain = |size: f64| size == 0.0 || plain.contains(&(size * (1.0 + 1e-9)));
+        // The ticks of a linear axis are about a fifth of its length apart.
+        let least = if scale == Scale::Log { low.abs() } else { (high - low) / 5.0 };
+        Self { plain: plain(least) && plain(low.abs().max(high.abs())) }
+    }
+
+    /// The words under a tick.
+    pub(super) fn label(self, value: f64) -> String {
+        let size = value.abs();
+        let text = match size {
+            0.0 => "0".to_owned(),
+            _ if self.plain => trimmed(format!("{size:.6}")),
+            _ => power_of_ten(size),
+        };
+        let sign = if value < 0.0 { "−" } else { "" };
+        format!("{sign}{text}")
+    }
 }
 
 fn power_of_ten(size: f64) -> String {
@@ -184,13 +198,18 @@ mod tests {
 
     #[test]
     fn ticks_read_as_a_person_would_write_them() {
-        let linear = [0.0, 0.1 + 0.2, 256.0, -2.5, 1e-4, 2e6, 0.05, 15e3];
-        assert_eq!(
-            linear.map(|value| tick_label(value, Scale::Linear)),
-            ["0", "0.3", "256", "−2.5", "10⁻⁴", "2·10⁶", "0.05", "15000"]
-        );
-        let log = [0.01, 0.001, 200.0, 1000.0, 10_f64.powf(4.0)];
-        assert_eq!(log.map(|value| tick_label(value, Scale::Log)), ["0.01", "10⁻³", "200", "1000", "10⁴"]);
+        let written = |scale, ends, ticks: &[f64]| {
+            let axis = Ticks::new(scale, ends);
+            ticks.iter().map(|&tick| axis.label(tick)).collect::<Vec<_>>()
+        };
+        assert_eq!(written(Scale::Linear, (-2.5, 5.0), &[0.0, 0.1 + 0.2, -2.5]), ["0", "0.3", "−2.5"]);
+        assert_eq!(written(Scale::Linear, (0.0, 15e3), &[0.0, 15e3]), ["0", "15000"]);
+        assert_eq!(written(Scale::Linear, (0.0, 2e6), &[0.0, 2e6]), ["0", "2·10⁶"]);
+        assert_eq!(written(Scale::Linear, (0.0, 1e-3), &[1e-4, 1e-3]), ["10⁻⁴", "10⁻³"]);
+        assert_eq!(written(Scale::Log, (0.01, 1e3), &[0.01, 200.0, 1000.0]), ["0.01", "200", "1000"]);
+        // One notation for all: a power of ten beside decimals reads as something else.
+        assert_eq!(written(Scale::Log, (1e-3, 10.0), &[1e-3, 0.1, 1.0, 10.0]), ["10⁻³", "10⁻¹", "10⁰", "10¹"]);
+        assert_eq!(written(Scale::Log, (1.0, 10_f64.powf(4.0)), &[2.0, 10_f64.powf(4.0)]), ["2·10⁰", "10⁴"]);
     }
 
     #[test]

@@ -45,7 +45,7 @@ impl Mark {
     }
 }
 
-/// One curve. Its colour follows from its place in the chart.
+/// One curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// The name in the legend, which has none for an empty one.
@@ -54,13 +54,17 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// How its points are drawn: a kind of line, or dots.
     pub mark: Mark,
+    /// Its colour, counted from 0; without one its place in the chart counts. What stands in several pictures has one.
+    pub colour: Option<usize>,
+    /// Whether a line has a dot at each of its points, too: where there are few, with nothing in between.
+    pub dots: bool,
 }
 
 impl Series {
     /// A curve with this name in the legend, through these points.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>, mark: Mark) -> Self {
-        Self { name: name.into(), points, mark }
+        Self { name: name.into(), points, mark, colour: None, dots: false }
     }
 
     /// A line through a single point has no length, so that point is drawn as one.
@@ -144,7 +148,7 @@ impl Chart {
 
     pub(super) fn bounds(&self) -> Result<Bounds, PlotError> {
         let lines = self.reference_lines.iter().map(|line| line.value);
-        let dots = |series: &Series| series.visible_mark() == Mark::Points;
+        let dots = |series: &Series| series.dots || series.visible_mark() == Mark::Points;
         let room = if self.series.iter().any(dots) { 0.03 } else { 0.0 };
         let (across, up) = (self.points().map(|point| point.0), self.points().map(|point| point.1));
         Ok(Bounds { x: self.x_axis.bounds(across, room)?, y: self.y_axis.bounds(up.chain(lines), room)? })

@@ -10,7 +10,7 @@ use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 use kuva::render::render_utils::generate_ticks_log;
 
-use super::axis::{Scale, tick_label};
+use super::axis::{Scale, Ticks};
 use super::chart::{Bounds, Chart, Mark, Series};
 use super::error::PlotError;
 use super::legend::{entry, plain, rule_entry};
@@ -31,7 +31,7 @@ impl Chart {
 
 /// Draws a chart whose points were checked and whose axes have these ends.
 fn svg(chart: &Chart, bounds: Bounds) -> String {
-    let plots: Vec<Plot> = chart.series.iter().enumerate().map(drawn).collect();
+    let plots: Vec<Plot> = chart.series.iter().enumerate().flat_map(drawn).collect();
     let named = |(index, series)| entry(chart, index, series);
     let mut entries: Vec<LegendEntry> = chart.series.iter().enumerate().flat_map(named).collect();
     entries.extend(spots::entries(chart));
@@ -65,8 +65,8 @@ fn axes(chart: &Chart, bounds: Bounds, layout: Layout) -> Layout {
         .with_tick_size(style::SMALL_SIZE)
         .with_body_size(style::SMALL_SIZE)
         .with_grid_line_width(0.7)
-        .with_x_tick_format(ticks(chart.x_axis.scale))
-        .with_y_tick_format(ticks(chart.y_axis.scale))
+        .with_x_tick_format(ticks(chart.x_axis.scale, bounds.x))
+        .with_y_tick_format(ticks(chart.y_axis.scale, bounds.y))
         .with_x_axis_min(bounds.x.0)
         .with_x_axis_max(bounds.x.1)
         .with_y_axis_min(bounds.y.0)
@@ -99,8 +99,9 @@ fn labels(chart: &Chart, layout: Layout) -> Layout {
     }
 }
 
-fn ticks(scale: Scale) -> TickFormat {
-    TickFormat::Custom(Arc::new(move |value| tick_label(value, scale)))
+fn ticks(scale: Scale, ends: (f64, f64)) -> TickFormat {
+    let ticks = Ticks::new(scale, ends);
+    TickFormat::Custom(Arc::new(move |value| ticks.label(value)))
 }
 
 /// Below the axes, where it covers no curve however many there are.
@@ -130,27 +131,30 @@ fn fitted(chart: &Chart, layout: Layout) -> Layout {
 
 fn widest_tick(chart: &Chart, computed: &ComputedLayout) -> f64 {
     let ticks = generate_ticks_log(computed.y_range.0, computed.y_range.1);
-    let width = |tick| words::width(&tick_label(tick, chart.y_axis.scale), style::SMALL_SIZE);
+    let words = Ticks::new(chart.y_axis.scale, computed.y_range);
+    let width = |tick| words::width(&words.label(tick), style::SMALL_SIZE);
     ticks.into_iter().map(width).fold(0.0, f64::max)
 }
 
-fn drawn((index, series): (usize, &Series)) -> Plot {
+fn drawn((index, series): (usize, &Series)) -> Vec<Plot> {
     let points = series.points.iter().copied();
     let mark = series.visible_mark();
-    let colour = style::colour_of(index, mark);
+    let colour = style::colour_of(series.colour.unwrap_or(index), mark);
+    let dots = || ScatterPlot::new().with_data(series.points.iter().copied()).with_color(colour).with_size(2.5).into();
     if mark == Mark::Points {
-        return ScatterPlot::new().with_data(points).with_color(colour).with_size(2.5).into();
+        return vec![dots()];
     }
     let stroke = match style::dashes(mark) {
         Some(dashes) => LineStyle::Custom(dashes.to_owned()),
         None => LineStyle::Solid,
     };
-    LinePlot::new()
+    let line = LinePlot::new()
         .with_data(points)
         .with_color(colour)
         .with_stroke_width(style::stroke_width(mark))
         .with_line_style(stroke)
-        .into()
+        .into();
+    if series.dots { vec![line, dots()] } else { vec![line] }
 }
 
 /// Text broken to a length. The backend breaks it at these ends of line and nowhere else.

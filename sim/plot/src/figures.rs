@@ -10,13 +10,21 @@ pub struct Curve {
     pub name: String,
     /// Its points: what they mean is said by the figure they go into.
     pub points: Vec<(f64, f64)>,
+    /// Colour and stroke, counted from 0: the same for the same thing in several figures. Without it the place counts.
+    pub style: Option<usize>,
 }
 
 impl Curve {
     /// A curve with this name, through these points.
     #[must_use]
     pub fn new(name: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
-        Self { name: name.into(), points }
+        Self { name: name.into(), points, style: None }
+    }
+
+    /// The same with this colour and stroke.
+    #[must_use]
+    pub fn styled(self, style: usize) -> Self {
+        Self { style: Some(style), ..self }
     }
 }
 
@@ -48,7 +56,13 @@ pub fn error_versus_exponent(
         .map(|(index, curve)| series(index, curve))
         .collect();
     chart.reference_lines = bounds;
-    chart.x_axis.range = extent(chart.points().map(|point| point.0));
+    let dots = chart.series.iter().any(|series| series.dots);
+    let ends = extent(chart.points().map(|point| point.0));
+    // Dots at both ends need some room beside them.
+    chart.x_axis.range = ends.map(|(low, high)| {
+        let room = if dots { (high / low).powf(0.03) } else { 1.0 };
+        (low / room, high * room)
+    });
     chart
 }
 
@@ -56,8 +70,7 @@ pub fn error_versus_exponent(
 ///
 /// [`angle_grid`] gives angles that show the whole highlight of an exponent.
 #[must_use]
-pub fn intensity_versus_angle(exponent: f64, curves: Vec<Curve>) -> Chart {
-    let title = format!("Highlight for n = {exponent}");
+pub fn intensity_versus_angle(title: impl Into<String>, curves: Vec<Curve>) -> Chart {
     let mut chart = Chart::new(title, Axis::linear("angle γ, degrees"), Axis::linear("intensity"));
     chart.series = curves.into_iter().enumerate().map(|(index, curve)| series(index, curve)).collect();
     chart.x_axis.range = extent(chart.points().map(|point| point.0));
@@ -83,8 +96,16 @@ pub fn angle_grid(exponent: f64, count: usize) -> Vec<(f64, f64)> {
         .collect()
 }
 
+/// Up to as many points are shown one by one: exponents that stand apart, with nothing measured in between.
+const FEW: usize = 12;
+
 fn series(index: usize, curve: Curve) -> Series {
-    Series::new(curve.name, curve.points, Mark::nth(index))
+    let style = curve.style.unwrap_or(index);
+    Series {
+        colour: curve.style,
+        dots: curve.points.len() <= FEW,
+        ..Series::new(curve.name, curve.points, Mark::nth(style))
+    }
 }
 
 /// From the least to the greatest value; `None`, which leaves the choice to the axis, when they

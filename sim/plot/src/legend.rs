@@ -16,7 +16,7 @@ pub(super) fn entry(chart: &Chart, index: usize, series: &Series) -> Vec<LegendE
         _ => LegendShape::Line,
     };
     let dashes = style::legend_dashes(mark);
-    wrapped_entry(chart, &series.name, style::colour_of(index, mark), shape, dashes)
+    wrapped_entry(chart, &series.name, style::colour_of(series.colour.unwrap_or(index), mark), shape, dashes)
 }
 
 /// The entries of a reference line whose label does not stand on it.

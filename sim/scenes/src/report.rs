@@ -62,6 +62,8 @@ pub struct RenderReport {
     pub materials: Vec<MaterialFigures>,
     /// The clock of the cycles, in MHz.
     pub clock_mhz: f64,
+    /// The device on which the clock is estimated; none where it was stated.
+    pub clock_device: Option<String>,
     /// Where every sample goes to the pipeline.
     pub every: Cycles,
     /// Where software leaves out those that face away or lie below the cut.

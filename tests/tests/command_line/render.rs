@@ -195,7 +195,38 @@ fn pipelines_are_compared() {
     bench.refused_list(&["render", scene("one_material").to_str().unwrap(), "--compare", "none"], &["none"]);
 }
 
-/// The default clock, and a mesh of our own in a scene of our own.
+/// Frames a second follow from the clock that the ranks of each pipeline reach, or from the one that is stated.
+#[test]
+fn clocks_are_those_of_the_pipelines() {
+    let bench = bench!();
+    let least = |preset: &str, device: &str| {
+        let paths = bench.good(&format!("clock --preset {preset} --device {device} --format csv"));
+        csv_rows(&paths).iter().map(|row| number(row, "MHz")).fold(f64::INFINITY, f64::min)
+    };
+    let more = ["--compare", "compact,paper", "--size", "24x18", "--out", "r"];
+    for (device, stated) in [("ecp5", None), ("up5k", None), ("ecp5", Some("70"))] {
+        let how = stated.map_or(["--device", device], |mhz| ["--clock-mhz", mhz]);
+        let said = rendered(&bench, "one_material", &[&more[..], &how].concat());
+        let report: Value = serde_json::from_str(&bench.text("r/render.json")).unwrap();
+        assert_eq!(report["clock_device"].as_str(), stated.is_none().then_some(device), "{said}");
+        for (row, preset) in csv_rows(&bench.text("r/compare.csv")).iter().zip(["compact", "paper"]) {
+            let mhz = stated.map_or_else(|| least(preset, device), |mhz| mhz.parse().unwrap());
+            assert!((number(row, "clock_mhz") / mhz - 1.0).abs() < 1e-9, "{preset} on {device}: {row:?}, {mhz}");
+            let cycles = report["needed"]["requests"].as_f64().unwrap() + number(row, "latency");
+            let frames = number(row, "frames_per_second");
+            // `paper` needs more samples than `compact`, whose report this is.
+            assert!(preset == "paper" || (frames * cycles / (mhz * 1e6) - 1.0).abs() < 1e-9, "{row:?}, {report}");
+        }
+    }
+    let twice = "--compare paper --clock-mhz 70 --device ecp5";
+    let scene = scene("one_material");
+    bench.refused_list(
+        &[&["render", scene.to_str().unwrap()], &twice.split(' ').collect::<Vec<_>>()[..]].concat(),
+        &["--device"],
+    );
+}
+
+/// A mesh of our own in a scene of our own.
 #[test]
 fn a_mesh_of_our_own() {
     let bench = bench!();
@@ -212,7 +243,7 @@ fn a_mesh_of_our_own() {
     let csv = bench.good("scene scenes/s.json --format csv");
     assert_eq!(csv.lines().nth(1), Some("copper,48,0,0,640"));
     let said = bench.good("render scenes/s.json --preset compact --size 64x36");
-    assert!(said.contains("at 100 MHz") && said.contains("torus_knot"), "{said}");
+    assert!(said.contains("MHz, estimated for ecp5") && said.contains("torus_knot"), "{said}");
     let schema = bench.good("scene --schema");
     let kept = std::fs::read_to_string(scene("torus_knot").with_file_name("../scene.schema.json"));
     assert_eq!(schema, kept.unwrap());

@@ -25,13 +25,24 @@ fn against_n(report: &ErrorReport, name: &str, of: fn(&ErrorRow) -> f64) -> Curv
     Curve::new(name, points)
 }
 
+/// Colour and stroke of what stands in several figures, and of what does not.
+mod style {
+    pub(super) const TOTAL: usize = 0;
+    pub(super) const METHOD: usize = 1;
+    pub(super) const METHOD_RELATIVE: usize = 2;
+    pub(super) const COEFFICIENTS: usize = 3;
+    pub(super) const DATA_PATH: usize = 4;
+    pub(super) const TOTAL_EVERYWHERE: usize = 5;
+    pub(super) const INPUT: usize = 6;
+}
+
 /// Absolute and relative error on the epicentre, with the bound.
 #[must_use]
 pub(super) fn epicentre(report: &ErrorReport) -> Chart {
     let curves = vec![
-        against_n(report, "total, absolute", |row| row.total_abs),
-        against_n(report, "method alone, absolute", |row| row.approximation_abs),
-        against_n(report, "method alone, relative", |row| row.approximation_rel),
+        against_n(report, "total, absolute", |row| row.total_abs).styled(style::TOTAL),
+        against_n(report, "method alone, absolute", |row| row.approximation_abs).styled(style::METHOD),
+        against_n(report, "method alone, relative", |row| row.approximation_rel).styled(style::METHOD_RELATIVE),
     ];
     let title = format!("Error on the epicentre, {}", report.configuration);
     error_versus_exponent(title, Scale::Linear, curves, vec![bound(report)])
@@ -41,11 +52,11 @@ pub(super) fn epicentre(report: &ErrorReport) -> Chart {
 #[must_use]
 pub(super) fn full_range(report: &ErrorReport) -> Chart {
     let curves = vec![
-        against_n(report, "total on all of [0, 1]", |row| row.full_range_abs),
-        against_n(report, "total on the epicentre", |row| row.total_abs),
-        against_n(report, "data path", |row| row.datapath_abs),
-        against_n(report, "ROM coefficients", |row| row.coefficient_abs),
-        against_n(report, "input quantisation", |row| row.input_abs),
+        against_n(report, "total on the epicentre", |row| row.total_abs).styled(style::TOTAL),
+        against_n(report, "total on all of [0, 1]", |row| row.full_range_abs).styled(style::TOTAL_EVERYWHERE),
+        against_n(report, "data path", |row| row.datapath_abs).styled(style::DATA_PATH),
+        against_n(report, "ROM coefficients", |row| row.coefficient_abs).styled(style::COEFFICIENTS),
+        against_n(report, "input quantisation", |row| row.input_abs).styled(style::INPUT),
     ];
     // A part that is nowhere to be seen (no ROM coefficient is rounded for schlick) has no curve.
     let seen = |curve: &Curve| curve.points.iter().any(|&(_, error)| error >= LEAST_PERCENT);
@@ -75,10 +86,11 @@ pub(super) fn curves(design: &Design, exponent: f64) -> Chart {
             .filter(|(_, x)| 1.0 - x >= fit.epicentre.s)
             .map(|&(degrees, x)| (degrees, fit.value(x)))
             .collect();
-        curves.push(Curve::new("g (below Q)", points));
+        curves.push(Curve::new("tail of [Rom], below Q", points));
     }
     curves.push(curve(&design.config().name, &|x| hardware(design, exponent, x)));
-    intensity_versus_angle(exponent, curves)
+    let title = format!("Highlight for n = {exponent}, {}", design.config().name);
+    intensity_versus_angle(title, curves)
 }
 
 fn hardware(design: &Design, exponent: f64, x: f64) -> f64 {

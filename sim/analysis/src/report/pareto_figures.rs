@@ -135,8 +135,18 @@ fn conditions(report: &ParetoReport, picture: &Picture<'_>) -> String {
     } else {
         format!("SAMPLED: one x in {}", report.every)
     };
-    let marks = if picture.kinds > 1 { "; filled: f64, open: f32" } else { "" };
+    let divides = picture.points.iter().any(|point| has_divider(picture, point.row));
+    let marks = match picture.kinds {
+        2.. => "; filled: f64, open: f32",
+        _ if divides => "; ÷: with a divider, which is not counted",
+        _ => "",
+    };
     format!("n = {}, x in {}, {seen}{marks}", shortened(&report.exponents), report.input)
+}
+
+/// Whether a picture of hardware alone has to say that a contender divides.
+fn has_divider(picture: &Picture<'_>, row: &ContenderRow) -> bool {
+    picture.kinds == 1 && row.divider_bits.is_some_and(|bits| bits > 0)
 }
 
 /// A list of exponents where there is no room for all of them.
@@ -178,15 +188,17 @@ fn kind(picture: &Picture<'_>, row: &ContenderRow) -> usize {
 
 fn spot(picture: &Picture<'_>, point: &Point<'_>, at: (f64, f64)) -> Spot {
     let row = point.row;
-    let family = row.contender.trim_start_matches("preset ");
+    // Beside methods a preset is called one: `tangent` is both.
+    let family = if picture.kinds == 1 { row.contender.trim_start_matches("preset ") } else { &row.contender };
     let family = family.trim_end_matches(" f32").trim_end_matches(" f64");
+    let family = if has_divider(picture, row) { format!("{family} ÷") } else { family.to_owned() };
     let label = if point.error < LEAST_DRAWN {
         format!("{family} ↓ {}", scientific(point.error))
     } else if row.kind == "f64" && partner(picture, point).is_some() {
         // The line to its partner says whose it is.
         String::new()
     } else {
-        family.to_owned()
+        family
     };
     Spot { at, kind: kind(picture, row), filled: row.kind != "f32", marked: false, label }
 }

@@ -205,15 +205,19 @@ impl PartFiles for EdgeReport {
             }
             points
         };
-        let mut series = vec![
-            Series::new("proved bound, as configured", worst(|row| row.bound_ulp, &own), Mark::Dashed),
-            Series::new("as configured", worst(|row| row.method_ulp, &own), Mark::Points),
-        ];
-        for variant in self.variants.iter().filter(|variant| variant.name.starts_with("rounding")) {
-            let of = |row: &Edge| row.variant == variant.name;
-            let points = worst(|row| row.method_ulp, &of);
-            series.push(Series::new(variant.name.clone(), points, Mark::Points));
-        }
+        // Points and bound of one variant have one colour.
+        let both = |index: usize, name: &str, of: &dyn Fn(&Edge) -> bool| {
+            let series = |name, points, mark| Series { colour: Some(index), ..Series::new(name, points, mark) };
+            let bound = series(format!("proved bound, {name}"), worst(|row| row.bound_ulp, of), Mark::Dashed);
+            [bound, series(name.to_owned(), worst(|row| row.method_ulp, of), Mark::Points)]
+        };
+        let mut series = Vec::from(both(0, "as configured", &own));
+        let modes = self.variants.iter().filter(|variant| variant.name.starts_with("rounding"));
+        series.extend(
+            modes
+                .enumerate()
+                .flat_map(|(index, variant)| both(index + 1, &variant.name, &|row: &Edge| row.variant == variant.name)),
+        );
         let title = format!("Worst error at the edges of x, {}", self.configuration);
         let points = series.iter().flat_map(|series| &series.points);
         let highest = points.map(|point| point.1).fold(0.5, f64::max);

@@ -202,6 +202,30 @@ fn a_lone_point_is_seen() {
 }
 
 #[test]
+fn few_exponents_are_seen_one_by_one() {
+    let of = |count: u32| {
+        let points = (1..=count).map(|n| (f64::from(n), 0.5)).collect();
+        let chart = error_versus_exponent("Some", Scale::Linear, vec![Curve::new("one", points)], Vec::new());
+        assert_nothing_is_clipped(&chart);
+        chart.to_svg().unwrap().matches("<circle").count()
+    };
+    assert_eq!((of(5), of(200)), (5, 0));
+}
+
+#[test]
+fn the_same_thing_has_the_same_colour_in_every_place() {
+    let curve = |name: &str| Curve::new(name, vec![(1.0, 0.5), (2.0, 0.4)]);
+    let stroke = |chart: &Chart| {
+        let svg = chart.to_svg().unwrap();
+        let of = |colour: &str| svg.matches(colour).count();
+        (of("#0072b2"), of("#000000"))
+    };
+    let one = error_versus_exponent("One", Scale::Linear, vec![curve("a"), curve("b").styled(5)], Vec::new());
+    let other = error_versus_exponent("Other", Scale::Linear, vec![curve("b").styled(5)], Vec::new());
+    assert!(stroke(&one).0 > 0 && stroke(&one).0 == stroke(&other).0, "{:?} {:?}", stroke(&one), stroke(&other));
+}
+
+#[test]
 fn the_highlight_fills_its_angles() {
     let grid = angle_grid(1.0, 91);
     assert_eq!((grid[0], grid[90]), ((0.0, 1.0), (90.0, 0.0)));
@@ -214,7 +238,7 @@ fn the_highlight_fills_its_angles() {
         Curve::new("Phong, cosⁿ γ", grid.iter().map(phong).collect()),
         Curve::new("hardware output", grid.iter().map(phong).collect()),
     ];
-    let chart = intensity_versus_angle(32.0, curves);
+    let chart = intensity_versus_angle("Highlight for n = 32", curves);
     assert_eq!(chart.title, "Highlight for n = 32");
     assert_nothing_is_clipped(&chart);
 }

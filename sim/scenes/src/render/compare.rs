@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::colour::Codes;
-use super::figures::{Difference, difference};
-use super::heat::heat;
+use super::figures::{Cycles, Difference, difference};
+use super::frame_clock::FrameClock;
+use super::heat::{end_of, heat};
 use super::highlight::reference;
 use super::panels::{Panel, bytes, sheet, thinned};
 use super::requests::{ScenePipeline, Which};
@@ -32,16 +33,23 @@ pub struct Compared {
     pub highlight_greatest_display_codes: u16,
     /// Cycles from the request to its answer, without a stall.
     pub latency: u64,
+    /// The pipeline's clock, in MHz: stated, or estimated for a device.
+    pub clock_mhz: f64,
+    /// Pictures in a second at that clock, where only the samples that need the pipeline go there; none without such
+    /// a sample.
+    pub frames_per_second: Option<f64>,
 }
 
 /// What each of the pipelines makes of the samples, in their order.
 #[must_use]
-pub fn compare(scene: &Scene, samples: &Samples, pipelines: &[ScenePipeline<'_>]) -> Vec<Compared> {
+pub fn compare(scene: &Scene, samples: &Samples, pipelines: &[ScenePipeline<'_>], clock: &FrameClock) -> Vec<Compared> {
     let codes = &Codes::new(&scene.image);
     let ideal = reference(scene, samples);
     let wanted = shade(scene, samples, codes, &ideal);
     let one = |pipeline: &ScenePipeline<'_>| {
-        let highlights = pipeline.highlights(&pipeline.answers(samples, Which::Needed));
+        let answers = pipeline.answers(samples, Which::Needed);
+        let highlights = pipeline.highlights(&answers);
+        let clock_mhz = clock.mhz(pipeline.design());
         let Difference { greatest, mean, pixels, psnr } =
             difference(&shade(scene, samples, codes, &highlights), &wanted);
         let both = || highlights.iter().zip(&ideal);
@@ -56,16 +64,24 @@ pub fn compare(scene: &Scene, samples: &Samples, pipelines: &[ScenePipeline<'_>]
             highlight_greatest_linear_codes: apart * f64::from(codes.greatest()),
             highlight_greatest_display_codes: apart_codes.unwrap_or(0),
             latency: pipeline.design().datapath().latency() as u64,
+            clock_mhz,
+            frames_per_second: Cycles::new(pipeline, answers.requests, clock_mhz).frames_per_second,
         }
     };
     pipelines.iter().map(one).collect()
 }
 
-/// x^n and the pipelines in a row, and below each of these its difference from x^n, all on one scale.
+/// x^n and the pipelines in a row, and below each of these its difference from x^n, all on one scale, which ends at
+/// `asked` codes, or where there is none at the greatest difference of all.
 ///
 /// # Errors
 /// When the words cannot be drawn, or the file not be encoded.
-pub fn side_by_side(scene: &Scene, samples: &Samples, pipelines: &[ScenePipeline<'_>]) -> Result<Vec<u8>, SheetError> {
+pub fn side_by_side(
+    scene: &Scene,
+    samples: &Samples,
+    pipelines: &[ScenePipeline<'_>],
+    asked: Option<u16>,
+) -> Result<Vec<u8>, SheetError> {
     let samples = &thinned(samples);
     let codes = &Codes::new(&scene.image);
     let ideal = reference(scene, samples);
@@ -79,7 +95,7 @@ pub fn side_by_side(scene: &Scene, samples: &Samples, pipelines: &[ScenePipeline
             (pipeline.design().config().name.clone(), bytes(scene, samples, &highlights), picture, found)
         })
         .collect();
-    let end = made.iter().map(|(_, _, _, found)| found.greatest).max().unwrap_or(0);
+    let end = end_of(asked, made.iter().map(|(_, _, _, found)| found.greatest).max().unwrap_or(0));
     let mut panels = vec![Panel { words: "x^n".to_owned(), pixels: bytes(scene, samples, &ideal) }];
     panels.extend(made.iter().map(|(name, pixels, _, found)| {
         let noise = found.psnr.map_or_else(|| "equal".to_owned(), |psnr| format!("{psnr:.1} dB"));

@@ -20,7 +20,7 @@
 //! | `requests.rs` | x in the pipeline's bits, by exponent, and which of them need the pipeline |
 //! | `highlight.rs` | the pipeline's answers, and x^n |
 //! | `colour.rs`, `shading.rs` | linear light, and display codes |
-//! | `figures.rs` | differences, regions, cycles |
+//! | `figures.rs`, `frame_clock.rs` | differences, regions, cycles; the clock of a pipeline |
 //! | `png.rs`, `heat.rs`, `methods.rs`, `compare.rs`, `panels.rs`, `sheet.rs` | the pictures |
 //!
 //! Everything is computed in f64 with correctly rounded functions and in an order of its own, so that neither machine
@@ -31,6 +31,7 @@ mod bvh;
 mod colour;
 mod compare;
 mod figures;
+mod frame_clock;
 mod heat;
 mod highlight;
 mod methods;
@@ -49,6 +50,7 @@ pub use bvh::Bvh;
 pub use colour::Codes;
 pub use compare::{Compared, compare, side_by_side};
 pub use figures::{Cycles, Difference, MaterialFigures, by_material, difference};
+pub use frame_clock::FrameClock;
 pub use heat::heat_map;
 pub use highlight::{Answers, Zone, reference};
 pub use methods::methods;
