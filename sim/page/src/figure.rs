@@ -77,7 +77,7 @@ fn scaled(axis: &Axis) -> Scaled<'_> {
 }
 
 fn curve((index, series): (usize, &Series)) -> Curve<'_> {
-    let Stroke { colour, dashes, width } = stroke(index, series.mark);
+    let Stroke { colour, dashes, width } = stroke(series.colour.unwrap_or(index), series.mark);
     let points = series.mark == Mark::Points || series.points.len() == 1;
     Curve { name: &series.name, colour, dashes, width, points }
 }
