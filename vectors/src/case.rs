@@ -99,6 +99,19 @@ impl fmt::Display for Strategy {
     }
 }
 
+/// How many vectors a command chooses unless it is told.
+pub const DEFAULT_COUNT: u64 = 4096;
+
+/// The seed of a command's random vectors unless it is told.
+pub const DEFAULT_SEED: u64 = 1;
+
+/// The options that choose these vectors, as they would be typed.
+#[must_use]
+pub fn options(strategy: Strategy, count: u64, seed: u64) -> String {
+    let count = if strategy == Strategy::Compact { String::new() } else { format!(" --count {count}") };
+    format!("--strategy {strategy}{count} --seed {seed}")
+}
+
 /// The text is not a strategy.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{0:?} is not a strategy; use mixed, compact, corners, even, random or exhaustive")]

@@ -41,9 +41,16 @@ pub enum ConfigurationError {
 /// # Errors
 /// When the file cannot be read, or holds no configuration.
 pub fn read(path: &Path) -> Result<Config, ConfigurationError> {
+    parse(&text(path)?, &path.display().to_string())
+}
+
+/// The text of a file of a configuration, which stands alone: with the table of delays that it names by a file.
+///
+/// # Errors
+/// When a file cannot be read.
+pub fn text(path: &Path) -> Result<String, ConfigurationError> {
     let text = text_file::read(path, CONFIGURATION)?;
-    let text = with_delays(&text, path)?.unwrap_or(text);
-    parse(&text, &path.display().to_string())
+    Ok(with_delays(&text, path)?.unwrap_or(text))
 }
 
 /// The table of delays in a file.

@@ -32,6 +32,7 @@ pub mod case;
 pub mod checksum;
 pub mod configuration_file;
 pub mod decimal;
+pub mod digits;
 pub mod evaluate;
 pub mod fault_table;
 pub mod faults;

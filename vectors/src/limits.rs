@@ -33,6 +33,27 @@ pub const MOST_SHARDS: u32 = 1 << 16;
 /// The most pieces that a job is cut into, 2^32: so many are numbered, and none of them is kept in memory.
 pub const MOST_PIECES: u64 = 1 << 32;
 
+/// The longest configuration that `blysk serve` takes, 64 KiB: a preset has 600 bytes.
+pub const MOST_SERVED_TEXT: usize = 64 << 10;
+
+/// The most rows times segments of a configuration in `blysk serve`, 2^12: fitting so many takes seconds.
+pub const MOST_SERVED_ROWS: usize = 1 << 12;
+
+/// The most points of a curve of `blysk serve`: a plot is not many more pixels wide.
+pub const MOST_SERVED_POINTS: usize = 400;
+
+/// The most pipelines that `blysk serve` keeps to be clocked by hand; the one that was not clocked for longest goes.
+pub const MOST_SERVED_SESSIONS: usize = 16;
+
+/// The most clock cycles of one such pipeline.
+pub const MOST_SERVED_CYCLES: u64 = 4096;
+
+/// Seconds that `blysk serve` waits for an answer: RTL with its vectors takes some of them.
+pub const SERVED_SECONDS: u64 = 60;
+
+/// Requests of `blysk serve` that may wait for a worker.
+pub const SERVED_WAITING: usize = 16;
+
 /// How many inputs a design has: every x of [0, 1] in every row.
 #[must_use]
 pub fn inputs(design: &Design) -> u128 {

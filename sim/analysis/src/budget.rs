@@ -3,13 +3,13 @@
 use hw_model::design::{Design, DesignError, Revision};
 
 /// A budget that keeps nobody from anything: the highest a configuration may have.
-pub(crate) const NO_BUDGET: f64 = 1e6;
+pub const NO_BUDGET: f64 = 1e6;
 
 /// The revised design, its budget raised to what it proves where that is more than before.
 ///
 /// # Errors
 /// As [`Design::new`].
-pub(crate) fn within_its_bound(design: &Design, revision: Revision) -> Result<Design, DesignError> {
+pub fn within_its_bound(design: &Design, revision: Revision) -> Result<Design, DesignError> {
     let unbound = design.revised(Revision { error_budget_ulp: NO_BUDGET, ..revision.clone() })?;
     let needed = unbound.bounds().iter().map(|bound| bound.total()).fold(0.0, f64::max);
     // A thousandth up: it is written in decimal.

@@ -3,7 +3,7 @@
 #![cfg_attr(not(test), deny(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::unreachable))]
 
 pub mod approximation;
-mod budget;
+pub mod budget;
 pub mod claims;
 pub mod error_report;
 pub mod hardware_claim;

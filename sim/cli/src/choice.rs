@@ -7,6 +7,7 @@ use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::design::Design;
 use hw_model::names;
 use rayon::prelude::*;
+use vectors::case::{DEFAULT_COUNT, DEFAULT_SEED, options};
 use vectors::evaluate::{Csv, Dialect, Hex, questions};
 use vectors::faults::Workers;
 use vectors::limits::MAX_VECTORS;
@@ -26,10 +27,10 @@ pub(super) struct Choice {
     #[arg(long, default_value_t)]
     strategy: Strategy,
     /// How many vectors; compact and exhaustive settle that themselves.
-    #[arg(long, default_value_t = 4096)]
+    #[arg(long, default_value_t = DEFAULT_COUNT)]
     count: u64,
     /// Seed of the random vectors, and of the wrong word of the negative control.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = DEFAULT_SEED)]
     seed: u64,
     /// Your own list of cases instead, in its order; - is standard input.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["strategy", "count"])]
@@ -60,12 +61,10 @@ impl Choice {
     /// The options as they would be typed, for the headers of generated files.
     pub(super) fn options(&self) -> String {
         let Self { strategy, count, seed, .. } = self;
-        let chosen = match (&self.cases, strategy) {
-            (Some(path), _) => format!("--cases {}{}", names::shell(path), self.cases_format.option()),
-            (None, Strategy::Compact) => format!("--strategy {strategy}"),
-            (None, _) => format!("--strategy {strategy} --count {count}"),
-        };
-        format!("{chosen} --seed {seed}")
+        match &self.cases {
+            Some(path) => format!("--cases {}{} --seed {seed}", names::shell(path), self.cases_format.option()),
+            None => options(*strategy, *count, *seed),
+        }
     }
 
     /// The files that the vectors are read from.

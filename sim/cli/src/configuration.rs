@@ -41,7 +41,28 @@ pub(super) struct Configurations {
     pub(super) all_presets: bool,
 }
 
+/// A configuration as it is stated.
+pub(super) enum Stated {
+    /// A preset, by its name.
+    Preset(String),
+    /// The text of a file.
+    Text(String),
+}
+
 impl MaybeConfiguration {
+    /// The configuration as it is stated, where there is one, once it is known to be one.
+    pub(super) fn stated(&self) -> anyhow::Result<Option<Stated>> {
+        Ok(match (&self.preset, &self.config) {
+            (Some(name), _) => Some(Stated::Preset(find_preset(name)?.name.to_owned())),
+            (None, Some(path)) => {
+                let text = configuration_file::text(path)?;
+                configuration_file::parse(&text, &path.display().to_string())?;
+                Some(Stated::Text(text))
+            }
+            (None, None) => None,
+        })
+    }
+
     /// The hardware of the configuration, where there is one.
     pub(super) fn design(&self) -> anyhow::Result<Option<Design>> {
         self.load()?.map(|(config, origin)| Design::new(config).with_context(|| origin)).transpose()

@@ -7,16 +7,15 @@ use anyhow::anyhow;
 use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::datapath::Datapath;
 use hw_model::design::Design;
-use hw_model::quantise::{decimal, real};
+use hw_model::quantise::decimal;
 use vectors::stimulus_file::{bits, real as real_field};
-use vectors::table::hex;
 use vectors::text_file::{self, QUESTIONS, TextReader};
 
 use super::bar;
 use super::configuration::Configuration;
 use super::out::{Out, Outcome};
 use super::table::{Cell, Format as TableFormat, Rows, digits};
-use vectors::evaluate::{Answer, Csv, Dialect, Hex, Question, StreamError, stream};
+use vectors::evaluate::{Answer, Csv, Dialect, Held, Hex, Question, StreamError, stream};
 
 /// Ask the golden model: the intensity of (n, x), or of every line of a file or of standard input.
 ///
@@ -179,19 +178,16 @@ fn text(datapath: &Datapath, answer: &Answer) -> String {
 /// Every register of every rank as the question passes through on its own.
 fn ranks(datapath: &Datapath, answer: &Answer) -> Rows {
     let mut rows = Rows::new(&["rank", "register", "format", "hex", "bits", "value"]);
-    let passage = datapath.passage(answer.question.address, answer.question.x);
-    for (rank, signals) in passage.iter().enumerate() {
+    for (rank, registers) in Held::of_question(datapath, &answer.question).iter().enumerate() {
         let name = datapath.rank_name(rank);
-        for register in datapath.registers(rank) {
-            let bits = register.bits(signals);
-            let format = register.format;
+        for held in registers {
             rows.push(vec![
                 Cell::from(name.as_str()),
-                register.name().into(),
-                format.to_string().into(),
-                hex(bits, format).into(),
-                Cell::Integer(bits),
-                real(bits, format).into(),
+                held.name().into(),
+                held.format().to_string().into(),
+                held.hex().into(),
+                Cell::Integer(held.bits),
+                held.value().into(),
             ]);
         }
     }

@@ -6,7 +6,7 @@ use super::table::folded;
 
 /// What one comes for, and the subcommands for it.
 const GROUPS: [(&str, &[&str]); 6] = [
-    ("Look at presets, coefficients and answers", &["presets", "coefficients", "rom", "evaluate", "simulate"]),
+    ("Look at presets, coefficients and answers", &["presets", "coefficients", "rom", "evaluate", "simulate", "serve"]),
     ("Check errors, vectors and a simulation of your own", &["report", "check", "stability", "shard"]),
     ("Prove bounds", &["certify", "claims"]),
     ("Choose hardware", &["design", "refine", "clock", "pareto", "specialise"]),

@@ -37,6 +37,7 @@ mod rom;
 mod rtl;
 mod scene;
 mod scene_import;
+mod serve;
 mod shard;
 mod signals;
 mod simulate;
@@ -81,6 +82,7 @@ enum Command {
     Certify(certify::Args),
     Simulate(simulate::Args),
     Evaluate(evaluate::Args),
+    Serve(serve::Args),
     Claims(claims::Args),
     Coefficients(coefficients::Args),
     Rom(rom::Args),
@@ -121,6 +123,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(Outcome::Good) => ExitCode::SUCCESS,
         Ok(Outcome::Fails) => ExitCode::from(1),
+        Ok(Outcome::Stopped(signal)) => ExitCode::from(signals::status(signal) as u8),
         Err(error) => {
             // Where standard error is closed, the exit status alone tells.
             let _ = writeln!(io::stderr(), "{}", folded(&format!("error: {}", message(&error)), CONTINUED));
@@ -160,6 +163,7 @@ fn run(command: Command, out: &mut Out) -> anyhow::Result<Outcome> {
         Command::Certify(args) => certify::run(&args, out),
         Command::Simulate(args) => simulate::run(&args, out),
         Command::Evaluate(args) => evaluate::run(&args, out),
+        Command::Serve(args) => serve::run(&args, out),
         Command::Claims(args) => claims::run(&args, out),
         Command::Coefficients(args) => coefficients::run(&args, out),
         Command::Rom(args) => rom::run(&args, out),

@@ -11,6 +11,8 @@ pub(crate) enum Outcome {
     Good,
     /// Something that was checked does not hold.
     Fails,
+    /// What has no end of its own was ended by this signal.
+    Stopped(i32),
 }
 
 /// Standard output, buffered.

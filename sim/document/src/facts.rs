@@ -7,20 +7,20 @@ use hw_model::registers::Register;
 
 /// What a register can hold.
 #[derive(Debug, Clone)]
-pub(super) struct Held {
+pub struct Held {
     /// The least bits.
-    pub(super) least: i64,
+    pub least: i64,
     /// The greatest bits.
-    pub(super) greatest: i64,
+    pub greatest: i64,
     /// The exponent of the row that reaches furthest from 0, where one is known.
-    pub(super) furthest: Option<f64>,
+    pub furthest: Option<f64>,
     /// How the two are known.
-    pub(super) known: Known,
+    pub known: Known,
 }
 
 /// How a range is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Known {
+pub enum Known {
     /// Every value between is allowed by the format or the encoding.
     Format,
     /// Evaluated in integers over every row and every x.
@@ -30,16 +30,22 @@ pub(super) enum Known {
 }
 
 /// A design with what was found out about it.
-pub(super) struct Facts<'a> {
-    pub(super) design: &'a Design,
-    pub(super) polynomial: Option<PolynomialReach>,
-    pub(super) tail: Option<TailReach>,
-    pub(super) shares: Vec<Share>,
+#[derive(Debug)]
+pub struct Facts<'a> {
+    /// The design.
+    pub design: &'a Design,
+    /// What the polynomial's registers take, where the design has one and that was found.
+    pub polynomial: Option<PolynomialReach>,
+    /// What the divider's registers take, where the design has one.
+    pub tail: Option<TailReach>,
+    /// What each register adds to the error bound.
+    pub shares: Vec<Share>,
 }
 
 impl<'a> Facts<'a> {
     /// The facts of a design: reach of its registers, shares of its error.
-    pub(super) fn new(design: &'a Design) -> Self {
+    #[must_use]
+    pub fn new(design: &'a Design) -> Self {
         let datapath = design.datapath();
         Self {
             design,
@@ -49,12 +55,15 @@ impl<'a> Facts<'a> {
         }
     }
 
-    pub(super) fn datapath(&self) -> &'a Datapath {
+    /// The data path of the design.
+    #[must_use]
+    pub fn datapath(&self) -> &'a Datapath {
         self.design.datapath()
     }
 
     /// What a register holds in a rank that computes it.
-    pub(super) fn held(&self, rank: usize, register: &RankRegister) -> Held {
+    #[must_use]
+    pub fn held(&self, rank: usize, register: &RankRegister) -> Held {
         let reach = match (register.register, &self.polynomial, &self.tail) {
             (Register::V, Some(reach), _) => Some(reach.v),
             (Register::T(stage), Some(reach), _) => reach.lines.get(stage - 1).copied(),
@@ -119,7 +128,8 @@ impl<'a> Facts<'a> {
     }
 
     /// The rank of the last quotient bits.
-    pub(super) fn last_digits(&self) -> usize {
+    #[must_use]
+    pub fn last_digits(&self) -> usize {
         let stages = self.datapath().divider().map_or(0, |divider| divider.digit_stages() as usize);
         self.datapath().rank_of(Register::Divisor) + stages
     }

@@ -9,7 +9,7 @@ mod clock;
 mod control;
 mod divider;
 mod examples;
-mod facts;
+pub mod facts;
 mod flip_flops;
 mod layout;
 mod lines;

@@ -1,12 +1,14 @@
 //! Help: complete, and its examples can be typed as they stand.
 
+use std::io::{BufRead, BufReader};
 use std::path::Path;
+use std::process::Stdio;
 
 use blysk_tests::answers::Log;
 use blysk_tests::bench;
 use blysk_tests::cli::Bench;
 
-const COMMANDS: [&str; 22] = [
+const COMMANDS: [&str; 23] = [
     "report",
     "vectors",
     "rtl",
@@ -27,6 +29,7 @@ const COMMANDS: [&str; 22] = [
     "scene",
     "specialise",
     "shard",
+    "serve",
     "completions",
     "man",
 ];
@@ -72,13 +75,29 @@ fn every_command_is_listed_and_has_an_example() {
         assert!(help.starts_with(listed), "{listed:?} does not begin {help}");
         let (described, _) = help.split_once("\nUsage: ").expect("a usage");
         assert!(described.lines().count() > 2, "no more than the list says: {described}");
-        let without = ["vectors", "rtl", "check", "document", "mesh", "shard", "completions", "man"];
+        let without = ["vectors", "rtl", "check", "document", "mesh", "shard", "serve", "completions", "man"];
         let has_no_format = without.contains(&command);
         assert!(help.contains("--format") || has_no_format, "{help}");
     }
     assert_eq!(bench.good("--version"), format!("blysk {}\n", env!("CARGO_PKG_VERSION")));
     bench.refused("", &["Usage: blysk"]);
     bench.refused("polish", &["polish", "Usage: blysk"]);
+}
+
+/// A server has no end of its own: its examples are begun, and stopped once they have printed their address.
+fn begins(bench: &Bench, arguments: &str) {
+    // On a free port, as another program may have the one of the example.
+    let mut words: Vec<&str> = arguments.split_whitespace().collect();
+    if let Some(place) = words.iter().position(|word| *word == "--port") {
+        words.drain(place..place + 2);
+    }
+    words.extend(["--port", "0"]);
+    let mut child = bench.command(&words).stdout(Stdio::piped()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap()).read_line(&mut line).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(line.starts_with("http://127.0.0.1:"), "{arguments}: {line:?}");
 }
 
 /// Every example runs. A report may find that its bound does not hold, which is status 1.
@@ -91,6 +110,11 @@ fn every_example_runs() {
         let help = bench.good(&format!("{command} --help"));
         for example in examples(&help) {
             let (line, _redirected) = example.split_once(" > ").unwrap_or((&example, ""));
+            if command == "serve" {
+                begins(&bench, line.strip_prefix("blysk ").unwrap());
+                ran += 1;
+                continue;
+            }
             let run = bench.run(line.strip_prefix("blysk ").unwrap());
             assert!(run.status == 0 || (command == "report" && run.status == 1), "{run:#?}");
             assert!(!run.stdout.is_empty() && run.stderr.is_empty(), "{run:#?}");

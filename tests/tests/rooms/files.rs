@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Sources of crates without circles.
-const CRATES: [&str; 13] = [
+const CRATES: [&str; 14] = [
     "hw-model/src",
     "hw-model/bindings/c/src",
     "hw-model/bindings/model/src",
@@ -18,6 +18,7 @@ const CRATES: [&str; 13] = [
     "sim/document/src",
     "sim/plot/src",
     "sim/scenes/src",
+    "sim/serve/src",
     "sim/shard/src",
 ];
 

@@ -10,6 +10,7 @@
 mod answer;
 mod csv;
 mod digits;
+mod held;
 mod hex;
 mod lines;
 mod list;
@@ -17,6 +18,7 @@ mod stream;
 
 pub use answer::{Answer, Question};
 pub use csv::Csv;
+pub use held::Held;
 pub use hex::Hex;
 pub use list::questions;
 pub use stream::{Dialect, StreamError, stream};

@@ -1,0 +1,43 @@
+//! Limits on work, of a server in this process.
+
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use serde_json::json;
+use serve::{Limits, Server, Start};
+
+use crate::client::post;
+
+/// Runs a server with these limits while `work` asks it.
+fn with(limits: Limits, work: impl FnOnce(u16)) {
+    let server = Server::bind(0, Start::Preset("compact".to_owned()), limits).unwrap();
+    let port = server.address().trim_end_matches('/').rsplit_once(':').unwrap().1.parse().unwrap();
+    let (stop, stopped) = channel::<()>();
+    let running = std::thread::spawn(move || server.run(move || stopped.recv().is_err()));
+    work(port);
+    drop(stop);
+    assert!(running.join().unwrap().unwrap(), "it ran until it was told to stop");
+}
+
+#[test]
+fn what_takes_too_long_is_not_waited_for() {
+    let limits = Limits { workers: 1, waiting: 4, deadline: Duration::from_millis(1) };
+    with(limits, |port| {
+        let question = json!({"configuration": {"preset": "paper"}}).to_string();
+        let message = post(port, "/api/hardware", question.as_bytes()).refused(503);
+        assert!(message.contains("longer than 0.001 s") && message.contains("fewer exponents"), "{message}");
+    });
+}
+
+#[test]
+fn a_queue_has_an_end() {
+    let limits = Limits { workers: 1, waiting: 0, deadline: Duration::from_secs(60) };
+    with(limits, |port| {
+        let ask =
+            move || post(port, "/api/hardware", json!({"configuration": {"preset": "paper"}}).to_string().as_bytes());
+        let first: Vec<_> = (0..4).map(|_| std::thread::spawn(ask)).collect();
+        let statuses: Vec<u16> = first.into_iter().map(|asked| asked.join().unwrap().status).collect();
+        assert!(statuses.contains(&200) && statuses.contains(&503), "{statuses:?}");
+        assert_eq!(ask().status, 200, "there is room again");
+    });
+}
