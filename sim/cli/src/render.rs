@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use clap::{ArgGroup, Args as ClapArgs};
-use hw_model::design::Design;
 use rayon::prelude::*;
 
 use super::bar::Bar;
@@ -116,7 +115,7 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let rows_compared = compare(&scene, &samples, &compared, &clock);
     let report = report(&scene, &samples, &pipeline, &clock, &rendered, &highlights);
     if let Some(mut set) = set {
-        let pictures = pictures(&scene, &samples, design, &rendered, args.scale)?;
+        let pictures = pictures(&scene, &samples, &pipeline, &rendered, args.scale)?;
         files::write(&mut set, &report, &pictures)?;
         if !compared.is_empty() {
             files::write_compared(&mut set, &rows_compared, &side_by_side(&scene, &samples, &compared, args.scale)?)?;
@@ -237,7 +236,7 @@ fn report(
 fn pictures(
     scene: &Scene,
     samples: &Samples,
-    design: &Design,
+    pipeline: &ScenePipeline<'_>,
     rendered: &Rendered,
     scale: Option<u16>,
 ) -> anyhow::Result<[Vec<u8>; 4]> {
@@ -249,7 +248,7 @@ fn pictures(
                 0 => encode(&rendered.reference, transfer).map_err(anyhow::Error::from),
                 1 => encode(&rendered.pipeline, transfer).map_err(anyhow::Error::from),
                 2 => heat_map(&rendered.pipeline, &rendered.reference, scale).map_err(anyhow::Error::from),
-                _ => methods(scene, samples, design.config()).map_err(anyhow::Error::from),
+                _ => methods(scene, samples, pipeline).map_err(anyhow::Error::from),
             };
             picture.with_context(|| files::PICTURES[index])
         })

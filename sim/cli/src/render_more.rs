@@ -76,7 +76,7 @@ pub(super) fn print_compared(compared: &[Compared], out: &mut Out) -> anyhow::Re
             Cell::Integer(one.highlight_greatest_display_codes.into()),
             Cell::Integer(one.latency as i64),
             one.clock_mhz.into(),
-            one.frames_per_second.into(),
+            one.frames_per_second.map(|frames| frames.round() as i64).into(),
         ]);
     }
     writeln!(out)?;

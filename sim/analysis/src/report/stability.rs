@@ -205,19 +205,23 @@ impl PartFiles for EdgeReport {
             }
             points
         };
+        // Variants that are alike in every point are one: floor and towards zero, where nothing is negative.
+        let mut variants =
+            vec![("as configured".to_owned(), worst(|row| row.bound_ulp, &own), worst(|row| row.method_ulp, &own))];
+        for variant in self.variants.iter().filter(|variant| variant.name.starts_with("rounding")) {
+            let of = |row: &Edge| row.variant == variant.name;
+            let (bound, points) = (worst(|row| row.bound_ulp, &of), worst(|row| row.method_ulp, &of));
+            match variants.iter_mut().find(|(_, bounds, errors)| (&bound, &points) == (bounds, errors)) {
+                Some((name, ..)) => *name = format!("{name}, {}", variant.name.trim_start_matches("rounding ")),
+                None => variants.push((variant.name.clone(), bound, points)),
+            }
+        }
         // Points and bound of one variant have one colour.
-        let both = |index: usize, name: &str, of: &dyn Fn(&Edge) -> bool| {
+        let both = |(index, (name, bound, points))| {
             let series = |name, points, mark| Series { colour: Some(index), ..Series::new(name, points, mark) };
-            let bound = series(format!("proved bound, {name}"), worst(|row| row.bound_ulp, of), Mark::Dashed);
-            [bound, series(name.to_owned(), worst(|row| row.method_ulp, of), Mark::Points)]
+            [series(format!("proved bound, {name}"), bound, Mark::Dashed), series(name, points, Mark::Points)]
         };
-        let mut series = Vec::from(both(0, "as configured", &own));
-        let modes = self.variants.iter().filter(|variant| variant.name.starts_with("rounding"));
-        series.extend(
-            modes
-                .enumerate()
-                .flat_map(|(index, variant)| both(index + 1, &variant.name, &|row: &Edge| row.variant == variant.name)),
-        );
+        let series: Vec<Series> = variants.into_iter().enumerate().flat_map(both).collect();
         let title = format!("Worst error at the edges of x, {}", self.configuration);
         let points = series.iter().flat_map(|series| &series.points);
         let highest = points.map(|point| point.1).fold(0.5, f64::max);

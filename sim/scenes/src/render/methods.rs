@@ -18,7 +18,7 @@ use super::sheet::SheetError;
 use crate::scene::Scene;
 
 /// Panels side by side.
-const COLUMNS: u32 = 3;
+const COLUMNS: u32 = 4;
 
 /// What a panel says below its picture, and the preset whose hardware it takes. Those without a divider show zero where
 /// their polynomial ends.
@@ -46,31 +46,36 @@ fn hardware(preset: &str, method: Method, exponents: &[f64], like: &Config) -> O
     Design::new(config).ok()
 }
 
-/// x^n and the methods schlick, quadratic, hermite, composite and minimax as a PNG, each in a panel that says by how
-/// many display codes its picture differs from that of x^n.
+/// x^n, the pipeline itself, and hardware of the methods schlick, quadratic, hermite, composite and minimax in its
+/// formats, as a PNG: each in a panel that says by how many display codes its picture differs from that of x^n.
 ///
 /// # Errors
 /// When the words cannot be drawn, or the file not be encoded.
-pub fn methods(scene: &Scene, samples: &Samples, like: &Config) -> Result<Vec<u8>, SheetError> {
+pub fn methods(scene: &Scene, samples: &Samples, pipeline: &ScenePipeline<'_>) -> Result<Vec<u8>, SheetError> {
     let samples = &thinned(samples);
     let codes = &Codes::new(&scene.image);
     let ideal = reference(scene, samples);
     let wanted = shade(scene, samples, codes, &ideal);
     let first = Panel { words: "x^n".to_owned(), pixels: bytes(scene, samples, &ideal) };
     let exponents = scene.exponents();
-    let panel = |&(name, preset, method): &(&str, &str, Method)| {
-        let design = hardware(preset, method, &exponents, like);
-        let pipeline = design.as_ref().and_then(|design| ScenePipeline::new(design, scene).ok());
-        let Some(pipeline) = pipeline else {
-            return Panel { words: format!("{name}: too wide"), pixels: Vec::new() };
-        };
+    let shown = |name: &str, pipeline: &ScenePipeline<'_>| {
         let highlights = pipeline.highlights(&pipeline.answers(samples, Which::Needed));
         let picture: Picture = shade(scene, samples, codes, &highlights);
         let greatest = difference(&picture, &wanted).greatest;
         let words = format!("{name}: ≤ {greatest} codes off");
         Panel { words, pixels: bytes(scene, samples, &highlights) }
     };
+    let like = pipeline.design().config();
+    let panel = |&(name, preset, method): &(&str, &str, Method)| {
+        let design = hardware(preset, method, &exponents, like);
+        match design.as_ref().and_then(|design| ScenePipeline::new(design, scene).ok()) {
+            Some(pipeline) => shown(name, &pipeline),
+            None => Panel { words: format!("{name}: too wide"), pixels: Vec::new() },
+        }
+    };
+    // A preset may have the name of a method.
+    let own = shown(&format!("this configuration, {}", like.name), pipeline);
     let others: Vec<Panel> = METHODS.par_iter().map(panel).collect();
-    let panels: Vec<Panel> = std::iter::once(first).chain(others).collect();
+    let panels: Vec<Panel> = [first, own].into_iter().chain(others).collect();
     sheet(&panels, COLUMNS, samples, "the methods side by side")?.to_png()
 }
