@@ -105,7 +105,7 @@ const one = (selector) => {
   const count = document.querySelectorAll(selector).length;
   if (count !== 1) problems.push(`${count} elements ${selector}, not 1`);
 };
-["header", "nav", "main", "h1", "a.skip", "html[lang]", "title"].forEach(one);
+["header", "nav", "main", "h1", "a.skip", "html[lang]", "head > title"].forEach(one);
 let level = 0;
 for (const heading of document.querySelectorAll("h1, h2, h3, h4, h5, h6")) {
   const next = Number(heading.tagName[1]);

@@ -8,12 +8,14 @@ use clap::{Args as ClapArgs, ValueEnum};
 use hw_model::config::Config;
 use hw_model::exponents::Exponents;
 use hw_model::format::QFormat;
+use hw_model::names;
 use vectors::configuration_file;
 use vectors::text_file::{self, PARETO_TABLE, SYNTHESIS_TABLE, foreign_separator};
 
 use super::bar::Bar;
 use super::out::{Out, Outcome};
 use super::output;
+use super::pareto_page::{FILE, page};
 use super::pareto_tables as tables;
 use super::table::write_folded;
 use analysis::pareto::check::{differences, not_checked};
@@ -65,9 +67,12 @@ pub(super) struct Args {
     /// Write the files to this directory.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write pareto.html there too: tables that sort and plots that tell values, in one file.
+    #[arg(long, requires = "out")]
+    html: bool,
     /// Check whether a pareto.csv of the same exponents and input still holds: costs, the greatest errors at their x,
     /// and no greater error among every K-th x.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "synth", "format"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "html", "synth", "format"])]
     check: Option<PathBuf>,
     /// What to print of the comparison.
     #[arg(long, value_enum, default_value_t)]
@@ -87,6 +92,26 @@ enum Format {
     Markdown,
 }
 
+impl Args {
+    /// The command, without the place of its files, which are the same wherever they stand.
+    fn command(&self) -> String {
+        let mut command = format!("blysk pareto --exponents {} --input {}", self.exponents, self.input);
+        self.config.iter().for_each(|path| command.push_str(&format!(" --config {}", names::shell(path))));
+        if self.every > 1 {
+            command.push_str(&format!(" --every {}", self.every));
+        }
+        if self.no_timing {
+            command.push_str(" --no-timing");
+        } else {
+            command.push_str(&format!(" --rounds {} --seed {}", self.rounds, self.seed));
+        }
+        if let Some(path) = &self.synth {
+            command.push_str(&format!(" --synth {}", names::shell(path)));
+        }
+        command + " --html"
+    }
+}
+
 /// Where `make synth` writes.
 const SYNTH: &str = "results/synth/synth.csv";
 
@@ -100,7 +125,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     // Made before the work, so that an unwritable place is found at once.
     let synth = args.synth.clone().unwrap_or_else(|| PathBuf::from(SYNTH));
     let read = [args.config.as_slice(), &[synth]].concat();
-    let set = args.out.as_deref().map(|out| output::set(out, "pareto", &read, files::TABLES)).transpose()?;
+    let names = files::TABLES.into_iter().chain(args.html.then_some(FILE));
+    let set = args.out.as_deref().map(|out| output::set(out, "pareto", &read, names)).transpose()?;
     let timing = (!args.no_timing).then_some(TimingOptions { rounds: args.rounds, seed: args.seed });
     let bar = Bar::new(Some(inputs.count()));
     let report = compare(&inputs, &own, timing, &synthesis, &bar)?;
@@ -108,6 +134,12 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let mut names = Vec::new();
     if let Some(mut set) = set {
         names = files::write(&mut set, &report)?;
+        if args.html {
+            set.write(FILE, page(&report, &origin, args.command())?)?;
+            names.push(FILE.to_owned());
+        } else {
+            set.obsolete(FILE);
+        }
         set.commit()?;
     }
     match args.format {

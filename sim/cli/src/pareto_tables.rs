@@ -72,7 +72,7 @@ fn text(cell: &Cell) -> String {
     }
 }
 
-fn scope(report: &ParetoReport) -> String {
+pub(super) fn scope(report: &ParetoReport) -> String {
     let ParetoReport { input, every, samples, epicentre_samples, .. } = report;
     let exponents = shortened(&report.exponents);
     let seen = if report.exhaustive {
@@ -87,13 +87,13 @@ fn scope(report: &ParetoReport) -> String {
 }
 
 /// A table with its heading and what is said below it.
-struct Section {
-    title: String,
-    rows: Rows,
-    notes: Vec<String>,
+pub(super) struct Section {
+    pub(super) title: String,
+    pub(super) rows: Rows,
+    pub(super) notes: Vec<String>,
 }
 
-fn sections(report: &ParetoReport) -> Vec<Section> {
+pub(super) fn sections(report: &ParetoReport) -> Vec<Section> {
     let mut sections = vec![errors(report)];
     if let Some(timing) = &report.timing {
         sections.extend(times(report, timing));

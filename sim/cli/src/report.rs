@@ -14,6 +14,7 @@ use super::bar::Bar;
 use super::configuration::Configurations;
 use super::out::{Out, Outcome};
 use super::output;
+use super::report_page::{FILE, page};
 use super::table::{Cell, Format, Rows, digits, write_folded};
 use analysis::error_report::{ErrorReport, ErrorRow, Options, error_report};
 use analysis::report::files;
@@ -34,12 +35,15 @@ pub(super) struct Args {
     /// Write the report's files to this directory (with --all-presets: one directory inside for each).
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write report.html there too: verdict, plots that tell values and every exponent, in one file.
+    #[arg(long, requires = "out")]
+    html: bool,
     /// Greatest total error allowed, as a fraction of 1.
     #[arg(long, default_value_t = 0.0067, value_parser = bound)]
     bound: f64,
     /// The x whose verdict is the exit status; the other range's verdict is printed beside it.
     #[arg(long, value_enum, default_value_t)]
-    range: Range,
+    pub(super) range: Range,
     /// Every representable x, instead of corners and an even spread.
     #[arg(long)]
     exhaustive: bool,
@@ -51,9 +55,23 @@ pub(super) struct Args {
     format: Format,
 }
 
+impl Args {
+    /// The names of the files of one configuration.
+    fn names(&self) -> impl Iterator<Item = String> + use<> {
+        files::names().chain(self.html.then(|| FILE.to_owned()))
+    }
+
+    /// The command for the configuration that `option` chooses, without the place of its files.
+    pub(super) fn command(&self, option: &str) -> String {
+        let range = if self.range == Range::All { " --range all" } else { "" };
+        let exhaustive = if self.exhaustive { " --exhaustive" } else { "" };
+        format!("blysk report {option} --bound {}{range}{exhaustive} --html", self.bound)
+    }
+}
+
 /// The x that a verdict is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Range {
+pub(super) enum Range {
     /// The epicentre, where x^n >= Q: what [Rom] claims.
     #[default]
     Epicentre,
@@ -62,7 +80,7 @@ enum Range {
 }
 
 impl Range {
-    const fn words(self) -> &'static str {
+    pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Epicentre => "the epicentre",
             Self::All => "all of [0, 1]",
@@ -77,7 +95,7 @@ impl Range {
         }
     }
 
-    fn outcome<'a>(self, reports: impl IntoIterator<Item = &'a ErrorReport>) -> Outcome {
+    pub(super) fn outcome<'a>(self, reports: impl IntoIterator<Item = &'a ErrorReport>) -> Outcome {
         let keeps = |report: &ErrorReport| !report.rows.is_empty() && report.rows.iter().all(|row| self.holds(row));
         if reports.into_iter().all(keeps) { Outcome::Good } else { Outcome::Fails }
     }
@@ -92,28 +110,29 @@ pub(super) fn bound(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     match args.subject.designs()?.as_slice() {
-        [(design, _)] if !args.subject.all_presets => one(args, design, out),
+        [(design, option)] if !args.subject.all_presets => one(args, (design, option), out),
         designs => several(args, designs, out),
     }
 }
 
-fn one(args: &Args, design: &Design, out: &mut Out) -> anyhow::Result<Outcome> {
-    let begin = |out| output::set(out, "report", &args.subject.files(), files::names());
+fn one(args: &Args, (design, option): (&Design, &str), out: &mut Out) -> anyhow::Result<Outcome> {
+    let begin = |out| output::set(out, "report", &args.subject.files(), args.names());
     let mut set = args.out.as_deref().map(begin).transpose()?;
-    let report = measure(args, design, set.as_mut())?;
+    let report = measure(args, (design, option), set.as_mut())?;
     commit(set)?;
     match args.format {
         Format::Table => summary(design, &report, out)?,
         format => all_rows(std::slice::from_ref(&report), false).print(out, format, 17)?,
     }
     if let (Some(directory), Format::Table) = (&args.out, args.format) {
-        written(&directory.display().to_string(), out)?;
+        written(&directory.display().to_string(), args, out)?;
     }
     Ok(args.range.outcome([&report]))
 }
 
-fn written(place: &str, out: &mut Out) -> std::io::Result<()> {
-    let (tables, plots) = (files::TABLES.join(", "), files::PLOTS.join(", "));
+fn written(place: &str, args: &Args, out: &mut Out) -> std::io::Result<()> {
+    let tables: Vec<&str> = files::TABLES.into_iter().chain(args.html.then_some(FILE)).collect();
+    let (tables, plots) = (tables.join(", "), files::PLOTS.join(", "));
     writeln!(out, "\nwritten to {place}:\n  {tables}\n  plots as .svg and .png: {plots}")
 }
 
@@ -123,7 +142,7 @@ fn commit(set: Option<OutputSet>) -> anyhow::Result<()> {
 }
 
 /// Measures, and adds the files if there is a place for them.
-fn measure(args: &Args, design: &Design, set: Option<&mut OutputSet>) -> anyhow::Result<ErrorReport> {
+fn measure(args: &Args, (design, option): (&Design, &str), set: Option<&mut OutputSet>) -> anyhow::Result<ErrorReport> {
     let curves = curves_exponent(args.curves, design)?;
     let within = || Sweep::Report.within(inputs(design), design.config().input);
     let samples = args.exhaustive.then(within).transpose()?;
@@ -133,6 +152,11 @@ fn measure(args: &Args, design: &Design, set: Option<&mut OutputSet>) -> anyhow:
     bar.finish();
     if let Some(set) = set {
         files::write(set, design, &report, curves)?;
+        if args.html {
+            set.write(FILE, page(args, (design, option), &report, curves)?)?;
+        } else {
+            set.obsolete(FILE);
+        }
     }
     Ok(report)
 }
@@ -148,7 +172,7 @@ fn curves_exponent(asked: Option<f64>, design: &Design) -> anyhow::Result<f64> {
     }
 }
 
-fn percent(fraction: f64) -> String {
+pub(super) fn percent(fraction: f64) -> String {
     format!("{:.7} %", fraction * 100.0)
 }
 
@@ -159,7 +183,7 @@ pub(super) fn summarise(design: &Design, report: &ErrorReport, out: &mut Out) ->
 }
 
 /// One screen: the bound, the worst n and x, and what the error is made of there.
-fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Result<()> {
+pub(super) fn summary(design: &Design, report: &ErrorReport, out: &mut dyn Write) -> anyhow::Result<()> {
     let Some(worst) = report.worst() else { bail!("there is no exponent to report on") };
     let samples = if report.exhaustive { "every representable x" } else { "sampled x" };
     let seen = report.samples;
@@ -223,7 +247,7 @@ fn summary(design: &Design, report: &ErrorReport, out: &mut Out) -> anyhow::Resu
 }
 
 /// Whether the bound holds over a range of x, and from which n it does not.
-fn verdict(report: &ErrorReport, range: Range) -> String {
+pub(super) fn verdict(report: &ErrorReport, range: Range) -> String {
     let failing = || report.rows.iter().filter(|row| !range.holds(row));
     match failing().next() {
         None if report.rows.is_empty() => "is about no exponent".to_owned(),
@@ -250,21 +274,21 @@ fn greatest(report: &ErrorReport, of: fn(&ErrorRow) -> f64) -> Option<&ErrorRow>
 fn several(args: &Args, designs: &[(Design, String)], out: &mut Out) -> anyhow::Result<Outcome> {
     let name = |design: &Design| design.config().name.clone();
     let names = designs.iter().map(|(design, _)| name(design));
-    let names = names.flat_map(|directory| files::names().map(move |file| format!("{directory}/{file}")));
+    let names = names.flat_map(|directory| args.names().map(move |file| format!("{directory}/{file}")));
     let begin = |out| output::set(out, "report", &[], names);
     let mut set = args.out.as_deref().map(begin).transpose()?;
     let mut reports = Vec::new();
-    for (design, _) in designs {
+    for (design, option) in designs {
         reports.push(match &mut set {
-            Some(set) => set.within(&name(design), |set| measure(args, design, Some(set)))?,
-            None => measure(args, design, None)?,
+            Some(set) => set.within(&name(design), |set| measure(args, (design, option), Some(set)))?,
+            None => measure(args, (design, option), None)?,
         });
     }
     commit(set)?;
     if args.format == Format::Table {
         comparison(&reports, out)?;
         if let Some(directory) = &args.out {
-            written(&directory.join("<preset>").display().to_string(), out)?;
+            written(&directory.join("<preset>").display().to_string(), args, out)?;
         }
     } else {
         all_rows(&reports, true).print(out, args.format, 17)?;
@@ -318,7 +342,7 @@ fn short_verdict(report: &ErrorReport, range: Range) -> String {
 }
 
 /// Every exponent of every report; the preset's name in front where there are several.
-fn all_rows(reports: &[ErrorReport], named: bool) -> Rows {
+pub(super) fn all_rows(reports: &[ErrorReport], named: bool) -> Rows {
     let mut rows = Rows::new(&files::COLUMNS);
     if named {
         rows.columns.insert(0, "preset".to_owned());

@@ -41,6 +41,15 @@ pub(super) enum Cell {
 }
 
 impl Cell {
+    /// The cell as people see it: a real with `significant` digits.
+    pub(super) fn shown(&self, significant: usize) -> String {
+        match self {
+            Self::Real(real) => digits(*real, significant),
+            Self::Exponent(exponent) => shortest(*exponent),
+            cell => cell.text(),
+        }
+    }
+
     /// The cell as CSV has it.
     fn text(&self) -> String {
         match self {
@@ -174,11 +183,7 @@ impl Rows {
             .set_width(TERMINAL_WIDTH)
             .set_header(&self.columns);
         for row in &self.rows {
-            table.add_row(row.iter().map(|cell| match cell {
-                Cell::Real(real) => digits(*real, significant),
-                Cell::Exponent(exponent) => shortest(*exponent),
-                cell => cell.text(),
-            }));
+            table.add_row(row.iter().map(|cell| cell.shown(significant)));
         }
         for (index, column) in table.column_iter_mut().enumerate() {
             let numbers = self.rows.iter().any(|row| !matches!(row[index], Cell::Text(_)));

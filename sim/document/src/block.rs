@@ -11,6 +11,7 @@ use hw_model::registers::{MAX_SEGMENTS, Register};
 use hw_model::rom::Place;
 
 use super::layout::{BOX, Column, LANE, Lanes, PORTS, X_HEIGHT, columns, lanes, wire};
+use super::named::Part;
 use super::words::line_formula;
 use plot::canvas::{Anchor, Canvas, Point, colour, hop};
 
@@ -161,24 +162,27 @@ impl Picture<'_> {
         let size = format!("{} × {} bits", rom.depth(), rom.layout().word_width());
         let height = self.lanes.rom_foot - top;
         let words: Vec<String> = ["ROM".to_owned(), size].into_iter().chain(Self::ranks_in(&fetch)).collect();
-        self.part((fetch.left, top), (BOX, height), colour::GREEN, &words);
+        self.named(Part::Rom, |picture| picture.part((fetch.left, top), (BOX, height), colour::GREEN, &words));
         let address = format!("address_i · {}", rom.address_width());
         self.port_in(top + height / 2.0, &address, "");
         let x = self.lanes.x;
-        self.part((fetch.left, x), (BOX, X_HEIGHT), colour::GREY, &["x".to_owned()]);
+        let words = ["x".to_owned()];
+        self.named(Part::Input, |picture| picture.part((fetch.left, x), (BOX, X_HEIGHT), colour::GREY, &words));
         let port = format!("x_i · {}", formats.input.width());
         self.port_in(x + X_HEIGHT / 2.0, &port, &formats.input.to_string());
         let words: Vec<String> = self.front_end_words().into_iter().chain(Self::ranks_in(&front)).collect();
         let place = (front.left, self.lanes.polynomial);
         let height = self.lanes.foot - self.lanes.polynomial;
-        self.part(place, (BOX, height), colour::GREY, &words);
-        self.x_wire(&fetch, &front, x + X_HEIGHT / 2.0);
+        self.named(Part::FrontEnd, |picture| picture.part(place, (BOX, height), colour::GREY, &words));
+        self.named(Part::Input, |picture| picture.x_wire(&fetch, &front, x + X_HEIGHT / 2.0));
         for (index, above) in self.above.clone().into_iter().enumerate() {
             let y = wire(&self.lanes, index);
             match above {
-                Above::Field(name) => self.field(name, y),
+                Above::Field(name) => self.named(self.wire_of(name), |picture| picture.field(name, y)),
                 // To the box that takes in most, on the left: it is the lowest of its wires.
-                Above::NoWord => self.above(y, "no_word · 1", &front, -36.0),
+                Above::NoWord => self.named(Part::Only(Register::Status), |picture| {
+                    picture.above(y, "no_word · 1", &front, -36.0);
+                }),
             }
         }
     }
@@ -223,6 +227,16 @@ impl Picture<'_> {
         words
     }
 
+    /// What the wire of a field stands for.
+    fn wire_of(&self, name: Register) -> Part {
+        match name {
+            Register::C(_, power) if self.datapath.segment_count() > 1 && self.datapath.is_carried(power) => {
+                Part::Coefficients(power)
+            }
+            name => Part::Only(name),
+        }
+    }
+
     /// A field of the ROM word on its way above the lanes.
     fn field(&mut self, name: Register, y: f64) {
         let Some(field) = self.datapath.rom().layout().field(name).copied() else { return };
@@ -246,10 +260,7 @@ impl Picture<'_> {
             _ => (self.of_stage(degree), 0.0),
         };
         // The further segments' go with the first's.
-        let together = match name {
-            Register::C(_, power) => segments > 1 && self.datapath.is_carried(power),
-            _ => false,
-        };
+        let together = matches!(self.wire_of(name), Part::Coefficients(_));
         let (x, top) = (target.centre() + beside, self.lanes.polynomial);
         match field.place {
             Place::Constant { .. } | Place::Stored { .. } if together => {
@@ -285,33 +296,41 @@ impl Picture<'_> {
     fn polynomial(&mut self, stages: &[MultiplyAdd], formats: &PolynomialFormats) {
         let top = self.lanes.polynomial;
         let y = top + LANE / 2.0;
-        let front = self.columns[1];
         let degree = formats.degree();
         for (stage, (line, &format)) in (1..).zip(stages.iter().zip(formats.t())) {
             let column = self.of_stage(stage);
             let words =
                 [format!("stage {stage}"), line_formula(stage, degree, line.subtracts()), dropped(line.dropped_bits())];
             let words: Vec<String> = words.into_iter().chain(Self::ranks_in(&column)).collect();
-            self.part((column.left, top), (BOX, LANE), colour::BLUE, &words);
+            self.named(Part::Stage(stage), |picture| {
+                picture.part((column.left, top), (BOX, LANE), colour::BLUE, &words);
+            });
             let next = if stage < degree { self.of_stage(stage + 1) } else { self.last() }.left;
             let name = Register::T(stage).name();
-            self.wire(column.right(), next, y, &labelled(name, format), &format.to_string());
-            self.variable(stage < degree, column);
+            self.named(Part::Only(Register::T(stage)), |picture| {
+                picture.wire(column.right(), next, y, &labelled(name, format), &format.to_string());
+            });
+            self.named(Part::Only(Register::V), |picture| picture.variable(stage < degree, column));
         }
-        let v = self.lanes.variable;
-        let variable = if self.datapath.front_end().variable == Some(Variable::X) { "v = x" } else { "v = u" };
-        let end = self.of_stage(degree).centre();
-        self.canvas.line(&[(front.right(), v), (end, v)], colour::INK, 1.2);
-        let place = (front.right() + 5.0, v);
-        let words = labelled(variable, formats.v);
-        self.canvas.text((place.0, place.1 - 5.0), &words, Anchor::Start, SMALL);
-        self.canvas.quiet((place.0, place.1 + 13.0), &formats.v.to_string(), Anchor::Start, SMALL);
+        self.named(Part::Only(Register::V), |picture| picture.variable_wire(formats));
         // The last result waits for the quotient.
         for column in self.columns.clone() {
             if column.first > self.of_stage(degree).last && column.last < self.datapath.rank_count() - 1 {
                 self.carried(&column, y);
             }
         }
+    }
+
+    /// The wire of the variable below the stages.
+    fn variable_wire(&mut self, formats: &PolynomialFormats) {
+        let (v, front) = (self.lanes.variable, self.columns[1]);
+        let variable = if self.datapath.front_end().variable == Some(Variable::X) { "v = x" } else { "v = u" };
+        let end = self.of_stage(formats.degree()).centre();
+        self.canvas.line(&[(front.right(), v), (end, v)], colour::INK, 1.2);
+        let place = (front.right() + 5.0, v);
+        let words = labelled(variable, formats.v);
+        self.canvas.text((place.0, place.1 - 5.0), &words, Anchor::Start, SMALL);
+        self.canvas.quiet((place.0, place.1 + 13.0), &formats.v.to_string(), Anchor::Start, SMALL);
     }
 
     /// The variable goes up into a stage, and on through the registers of its rank.
@@ -328,9 +347,11 @@ impl Picture<'_> {
     fn end(&mut self) {
         let (front, last) = (self.columns[1], self.last());
         let y = self.lanes.region;
-        self.canvas.arrow(&[(front.right(), y), (last.left, y)]);
-        let words = "region · 2, status · 4";
-        self.canvas.text((front.right() + 5.0, y + 13.0), words, Anchor::Start, SMALL);
+        self.named(Part::Choice, |picture| {
+            picture.canvas.arrow(&[(front.right(), y), (last.left, y)]);
+            let words = "region · 2, status · 4";
+            picture.canvas.text((front.right() + 5.0, y + 13.0), words, Anchor::Start, SMALL);
+        });
         let middle = self.columns.len() - 1;
         for column in self.columns.clone().into_iter().take(middle).skip(2) {
             self.carried(&column, y);
@@ -345,7 +366,7 @@ impl Picture<'_> {
             words.push("round quotient".to_owned());
         }
         words.push("choose by region".to_owned());
-        self.part((last.left, top), (BOX, height), colour::GREY, &words);
+        self.named(Part::Clamp, |picture| picture.part((last.left, top), (BOX, height), colour::GREY, &words));
         let output = self.datapath.formats().output;
         let out = |offset: f64| top + height * offset;
         let port = format!("intensity_o · {}", output.width());

@@ -7,6 +7,7 @@ use hw_model::rom::Place;
 
 use super::block::{Picture, SMALL, constant, dropped, labelled};
 use super::layout::{BOX, Column, LANE, WIRE};
+use super::named::Part;
 use plot::canvas::{Anchor, colour};
 
 /// A field of the tail on its way below the lanes.
@@ -29,9 +30,11 @@ impl Picture<'_> {
         let divisor = self.of_rank(divided);
         let words = ["divisor".to_owned(), "D = A − B·x".to_owned(), dropped(divider.divisor.dropped_bits())];
         let words: Vec<String> = words.into_iter().chain(Self::ranks_in(&divisor)).collect();
-        self.part((divisor.left, top), (BOX, LANE), colour::ORANGE, &words);
+        self.named(Part::Divisor, |picture| picture.part((divisor.left, top), (BOX, LANE), colour::ORANGE, &words));
         let x = self.datapath.tail_x_format();
-        self.wire(front.right(), divisor.left, y, &labelled("tail_x", x), &x.to_string());
+        self.named(Part::Only(Register::TailX), |picture| {
+            picture.wire(front.right(), divisor.left, y, &labelled("tail_x", x), &x.to_string());
+        });
         if self.datapath.degree() > 0 {
             self.tail_wires(&divisor);
         }
@@ -44,12 +47,15 @@ impl Picture<'_> {
             format!("{ranks} rank{}", if ranks == 1 { "" } else { "s" }),
         ];
         let width = last.right() - first.left;
-        self.part((first.left, top), (width, LANE), colour::ORANGE, &words);
+        self.named(Part::Digits, |picture| picture.part((first.left, top), (width, LANE), colour::ORANGE, &words));
         let (d, digits) = (formats.divisor.width(), formats.digits.width());
         let both = format!("D · {d}, rem · {d}");
-        self.wire(divisor.right(), first.left, y, &both, &format!("digits · {digits}"));
+        let digits = format!("digits · {digits}");
         let (from, to) = (last.right(), self.last().left);
-        self.wire(from, to, y, &format!("rem · {d}"), &format!("digits · {digits}"));
+        self.named(Part::Digits, |picture| {
+            picture.wire(divisor.right(), first.left, y, &both, &digits);
+            picture.wire(from, to, y, &format!("rem · {d}"), &digits);
+        });
         for column in self.columns.clone() {
             if column.first > last_rank && column.last < self.datapath.rank_count() - 1 {
                 self.carried(&column, y);
@@ -80,12 +86,12 @@ impl Picture<'_> {
         for TailRow { name, format, place, y, beside } in self.tail_rows() {
             let x = divisor.centre() + beside;
             match place {
-                Place::Stored { .. } => {
-                    self.canvas.arrow(&[(fetch.right(), y), (x, y), (x, foot)]);
+                Place::Stored { .. } => self.named(Part::Only(name), |picture| {
+                    picture.canvas.arrow(&[(fetch.right(), y), (x, y), (x, foot)]);
                     let label = labelled(name.name(), format);
-                    self.canvas.text((fetch.right() + 5.0, y - 5.0), &label, Anchor::Start, SMALL);
-                    self.carried(&front, y);
-                }
+                    picture.canvas.text((fetch.right() + 5.0, y - 5.0), &label, Anchor::Start, SMALL);
+                    picture.carried(&front, y);
+                }),
                 Place::Constant { bits } => {
                     self.canvas.arrow(&[(x, y), (x, foot)]);
                     let label = constant(name, bits, format);

@@ -11,8 +11,10 @@ mod divider;
 mod examples;
 pub mod facts;
 mod flip_flops;
+mod html;
 mod layout;
 mod lines;
+mod named;
 mod page;
 mod paths;
 mod ports;
@@ -39,6 +41,9 @@ pub enum DocumentError {
     /// A page cannot be filled in.
     #[error("a page cannot be filled in: {0}")]
     Page(#[from] askama::Error),
+    /// A page of HTML cannot be written.
+    #[error(transparent)]
+    Html(#[from] ::page::PageError),
 }
 
 /// A configuration to be described.
@@ -53,24 +58,36 @@ pub struct Subject<'a> {
 /// The page that says what all configurations have in common.
 pub const COMMON: &str = "README.md";
 
+/// How the reference is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Pages in Markdown with pictures beside them.
+    Markdown,
+    /// The same, and for each configuration all of it as one page of HTML.
+    Html,
+}
+
 /// Adds to `set` the page and the pictures of each configuration, and the page that they share.
 /// Returns how many files those are.
 ///
 /// # Errors
 /// When a file cannot be written.
-pub fn stage(subjects: &[Subject<'_>], command: &str, set: &mut OutputSet) -> Result<usize, DocumentError> {
+pub fn stage(subjects: &[Subject<'_>], form: Form, command: &str, set: &mut OutputSet) -> Result<usize, DocumentError> {
     let mut files = 1;
     let mut entries = Vec::new();
+    let mut references = Vec::new();
     for Subject { design, option } in subjects {
         let datapath = design.datapath();
         let name = &design.config().name;
         let scenarios = scenario::scenarios(datapath);
         let text = page::page(design, &scenarios, command, option)?;
-        set.write(&format!("{name}.md"), text)?;
-        set.write(&format!("{name}-datapath.svg"), block::block(design))?;
+        let mut pictures = vec![(format!("{name}-datapath.svg"), block::block(design))];
         for scenario in &scenarios {
-            let file = format!("{name}-{}.svg", scenario.name);
-            set.write(&file, timing::timing(datapath, scenario))?;
+            pictures.push((format!("{name}-{}.svg", scenario.name), timing::timing(datapath, scenario)));
+        }
+        set.write(&format!("{name}.md"), &text)?;
+        for (file, picture) in &pictures {
+            set.write(file, picture)?;
         }
         files += 2 + scenarios.len();
         entries.push(page::Entry {
@@ -78,7 +95,15 @@ pub fn stage(subjects: &[Subject<'_>], command: &str, set: &mut OutputSet) -> Re
             description: design.config().description.clone(),
             latency: datapath.latency(),
         });
+        references.push(html::Reference { design, text, pictures });
     }
-    set.write(COMMON, page::common(&entries, command)?)?;
+    let common = page::common(&entries, command)?;
+    if form == Form::Html {
+        for reference in &references {
+            set.write(&html::file(reference.name()), html::page(reference, &common, &references, command)?)?;
+            files += 1;
+        }
+    }
+    set.write(COMMON, common)?;
     Ok(files)
 }

@@ -49,7 +49,6 @@ pub(super) fn page(
 ) -> Result<String, askama::Error> {
     let datapath = design.datapath();
     let facts = Facts::new(design);
-    let bound = design.bounds().iter().fold(0.0, |most, bound| bound.total().max(most));
     // The run with a request of each kind and no more.
     let first = &scenarios[0];
     let page = Page {
@@ -68,7 +67,7 @@ pub(super) fn page(
         regions: lines::regions(datapath),
         lines: lines::lines(datapath),
         variable: lines::variable(datapath),
-        bound: places(bound, 4),
+        bound: places(bound(design), 4),
         budget: places(design.config().error_budget_ulp, 6),
         scenarios,
         requests: examples::requests(design, first),
@@ -77,6 +76,11 @@ pub(super) fn page(
         estimates: clock::estimates(datapath),
     };
     Ok(page.render()? + "\n")
+}
+
+/// The bound of the error of coefficients and data path over all rows, in output ulp.
+pub(super) fn bound(design: &Design) -> f64 {
+    design.bounds().iter().fold(0.0, |most, bound| bound.total().max(most))
 }
 
 impl Page<'_> {

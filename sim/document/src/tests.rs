@@ -1,3 +1,5 @@
+use std::collections::BTreeSet;
+
 use hw_model::config::Config;
 use hw_model::presets;
 use hw_model::registers::Register;
@@ -97,5 +99,37 @@ fn the_runs_show_what_their_words_say() {
                 }
             }
         }
+    }
+}
+
+/// A page shows the registers of a part that is clicked: every register is one of some part, and no part names another.
+#[test]
+fn every_register_stands_in_a_part_of_the_block_diagram() {
+    for design in designs() {
+        let svg = block::block(&design);
+        let named = svg.split("data-register=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        let named: BTreeSet<&str> = named.flat_map(|names| names.split(' ')).collect();
+        let datapath = design.datapath();
+        let registers = (0..datapath.rank_count()).flat_map(|rank| datapath.registers(rank));
+        let registers: BTreeSet<&str> = registers.map(|register| register.name()).collect();
+        assert_eq!(named, registers, "{}", design.config().name);
+    }
+}
+
+/// The page in HTML has every table row of the Markdown, its pictures, and links that lead to headings inside.
+#[test]
+fn the_page_in_html_has_what_the_markdown_has() {
+    let design = &designs()[0];
+    let scenarios = scenario::scenarios(design.datapath());
+    let text = page::page(design, &scenarios, "made", "--preset a").unwrap();
+    let rows = text.lines().filter(|line| line.starts_with("| ")).count();
+    let name = &design.config().name;
+    let pictures = vec![(format!("{name}-datapath.svg"), block::block(design))];
+    let reference = html::Reference { design, text, pictures };
+    let html = html::page(&reference, "# Hardware reference\n\n## Handshake\n\nRules.\n", &[], "made").unwrap();
+    assert_eq!(html.matches("<tr>").count(), rows, "rows of tables, headings among them");
+    assert_eq!(html.matches("<svg ").count(), 1);
+    for link in ["#all-configurations", "#handshake"] {
+        assert!(html.contains(&format!("href=\"{link}\"")), "{link}");
     }
 }

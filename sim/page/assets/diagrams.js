@@ -41,13 +41,21 @@
     panel.className = "details";
     panel.setAttribute("aria-live", "polite");
     panel.textContent = "Click on a box or a wire, or move to it by Tab and press Enter: its registers are shown here.";
-    picture.after(panel);
+    (picture.closest("p") || picture).after(panel);
     // Its parts are reached one by one, so it is no longer a picture to those who listen.
     picture.querySelector("svg").setAttribute("role", "group");
     for (const element of elements) {
       element.setAttribute("tabindex", "0");
       element.setAttribute("role", "button");
       element.setAttribute("aria-label", `Registers ${element.dataset.register}`);
+      // A wire is thin: a wider one that is not seen takes the clicks.
+      for (const line of element.querySelectorAll("polyline")) {
+        const wide = line.cloneNode();
+        wide.setAttribute("stroke", "transparent");
+        wide.setAttribute("stroke-width", "12");
+        wide.setAttribute("pointer-events", "stroke");
+        line.before(wide);
+      }
       element.addEventListener("click", () => show(panel, picture, element));
       element.addEventListener("keydown", (event) => {
         if (event.key !== "Enter" && event.key !== " ") return;

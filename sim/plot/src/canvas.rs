@@ -50,6 +50,8 @@ pub mod colour {
 /// A picture under way.
 pub struct Canvas {
     group: Group,
+    /// What stands around the group under way.
+    outer: Vec<Group>,
 }
 
 impl Default for Canvas {
@@ -62,7 +64,23 @@ impl Canvas {
     /// An empty picture.
     #[must_use]
     pub fn new() -> Self {
-        Self { group: Group::new().set("font-family", FONT) }
+        Self { group: Group::new().set("font-family", FONT), outer: Vec::new() }
+    }
+
+    /// Begins a part of the picture that stands for these registers, named with spaces between: its element has them as
+    /// `data-register`, for pages in which a click asks about it. [`Canvas::close`] ends it.
+    pub fn open(&mut self, registers: &str) {
+        let part = Group::new();
+        let part = if registers.is_empty() { part } else { part.set("data-register", registers) };
+        self.outer.push(std::mem::replace(&mut self.group, part));
+    }
+
+    /// Ends the part that was begun last.
+    pub fn close(&mut self) {
+        if let Some(outer) = self.outer.pop() {
+            let part = std::mem::replace(&mut self.group, outer);
+            self.add(part);
+        }
     }
 
     /// A filled box with an outline.

@@ -6,6 +6,7 @@ use vectors::whole_file::OutputSet;
 use super::figures;
 use super::written::{self, FilesError};
 use crate::error_report::ErrorReport;
+use plot::Chart;
 
 /// The tables a report writes.
 pub const TABLES: [&str; 2] = ["error_vs_n.csv", "error_vs_n.json"];
@@ -43,6 +44,12 @@ pub fn exponent_of_curves(design: &Design) -> f64 {
     if exponents.position(64.0).is_some() { 64.0 } else { exponents.as_slice()[exponents.len() / 2] }
 }
 
+/// The charts of [`PLOTS`], in their order. `curves` is an exponent of the ROM, for the plot of curves.
+#[must_use]
+pub fn charts(design: &Design, report: &ErrorReport, curves: f64) -> [Chart; 3] {
+    [figures::epicentre(report), figures::full_range(report), figures::curves(design, curves)]
+}
+
 /// Adds every file of a report to `set`. `curves` is an exponent of the ROM, for the plot of curves.
 ///
 /// # Errors
@@ -51,8 +58,7 @@ pub fn write(set: &mut OutputSet, design: &Design, report: &ErrorReport, curves:
     let [csv, json] = TABLES;
     set.write(csv, written::table(csv, &report.rows)?)?;
     set.write(json, written::json(json, report)?)?;
-    let charts = [figures::epicentre(report), figures::full_range(report), figures::curves(design, curves)];
-    for (name, chart) in PLOTS.into_iter().zip(charts) {
+    for (name, chart) in PLOTS.into_iter().zip(charts(design, report, curves)) {
         written::picture(set, name, &chart)?;
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! The files and figures of a report.
 
+pub mod certificate_figure;
 pub mod claims;
 mod figures;
 pub mod files;

@@ -205,17 +205,22 @@ fn spot(picture: &Picture<'_>, point: &Point<'_>, at: (f64, f64)) -> Spot {
 
 /// What is told of a contender that a reader points at: its name, and the values of both axes.
 fn told(picture: &Picture<'_>, point: &Point<'_>) -> String {
-    let (cost, error) = (point.cost, scientific(point.error));
+    let (cost, error) = (point.cost, to_places(point.error, 6));
     format!("{}: greatest error {error}; {}: {cost}", point.row.contender, picture.cost)
 }
 
 /// 5.6·10⁻¹⁷; an error of 0 is said as such.
 fn scientific(error: f64) -> String {
+    to_places(error, 1)
+}
+
+/// The same with so many decimals.
+fn to_places(error: f64, places: usize) -> String {
     const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     if error == 0.0 {
         return "0".to_owned();
     }
-    let text = format!("{error:.1e}");
+    let text = format!("{error:.places$e}");
     let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
     let raised = |c: char| c.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize]);
     format!("{digits}·10{}", power.chars().map(raised).collect::<String>())

@@ -1,5 +1,6 @@
 //! `blysk certify`: rigorous bounds, and certificates.
 
+mod page;
 pub(super) mod print;
 
 use std::io::Write;
@@ -12,6 +13,7 @@ use hw_model::design::Design;
 use hw_model::exponents::Exponents;
 use hw_model::fit::{Levels, Method};
 use rayon::prelude::*;
+use vectors::WholeFile;
 use vectors::text_file::{self, CERTIFICATE};
 
 use super::bar::Bar;
@@ -64,6 +66,9 @@ pub(super) struct Args {
     /// Write the certificate, a JSON file; - is standard output, which then has nothing else.
     #[arg(long, value_name = "FILE", conflicts_with = "check")]
     out: Option<PathBuf>,
+    /// Write the bounds as a page of HTML, in one file, with their plot.
+    #[arg(long, value_name = "FILE", conflicts_with = "check")]
+    html: Option<PathBuf>,
     /// What to print: a summary (table), or every row (csv, json).
     #[arg(long, value_enum, default_value_t, conflicts_with = "check")]
     format: Format,
@@ -101,14 +106,25 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     }
     // Made before the work, so that an unwritable place is found at once.
     let file = output::file(args.out.as_ref(), &args.subject.configuration.files())?;
+    let page_file = output::file(args.html.as_ref(), &args.subject.configuration.files())?;
+    if file.as_ref().is_some_and(WholeFile::is_standard_output)
+        && page_file.as_ref().is_some_and(WholeFile::is_standard_output)
+    {
+        bail!("--out - and --html -: standard output has one of them; give the other a file");
+    }
     let claim = claim(args)?;
     let certificate = Certificate::new(claim);
-    let alone = output::fill(file, certificate.to_json())?;
+    let judged = args.bound.map(|bound| (bound, is_proved(bound, certificate.claim())));
+    let page = page_file.is_some().then(|| page::page(&certificate, judged, args.command())).transpose()?;
+    let alone = output::fill(file, certificate.to_json())? | output::fill(page_file, page.unwrap_or_default())?;
     if !alone {
         print::claim(certificate.claim(), args.format, out)?;
     }
     if let (Some(path), Format::Table, false) = (&args.out, args.format, alone) {
         writeln!(out, "\nwritten to {}", path.display())?;
+    }
+    if let (Some(path), Format::Table, false) = (&args.html, args.format, alone) {
+        writeln!(out, "page: {}", path.display())?;
     }
     match args.bound {
         // In csv and json only the exit status says it.
@@ -119,6 +135,26 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
 }
 
 impl Args {
+    /// The command, without the places of its files.
+    fn command(&self) -> String {
+        let Subject { exponents, all_real_n, configuration, .. } = &self.subject;
+        let mut command = format!("blysk certify {}", configuration.option()).trim_end().to_owned();
+        if let Some(methods) = &self.method {
+            let names: Vec<String> = methods.0.iter().map(ToString::to_string).collect();
+            command.push_str(&format!(" --method {}", names.join(",")));
+        }
+        if let Some(exponents) = exponents {
+            command.push_str(&format!(" --exponents {exponents}"));
+        }
+        if *all_real_n {
+            command.push_str(" --all-real-n");
+        }
+        if let Some(bound) = self.bound {
+            command.push_str(&format!(" --bound {bound}"));
+        }
+        command + " --html"
+    }
+
     /// Whether anything is claimed of an epicentre. A preset or configuration has one.
     fn has_epicentre(&self) -> bool {
         let made_for = |&method: &Method| Stretch::of(method).contains(&Stretch::Epicentre);
@@ -177,8 +213,8 @@ fn hardware(design: Design) -> anyhow::Result<Claim> {
     Ok(Claim::Hardware(Box::new(claim)))
 }
 
-/// Every absolute error on an epicentre against the bound.
-fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<Outcome> {
+/// Whether every absolute error on an epicentre is within the bound.
+fn is_proved(bound: f64, claim: &Claim) -> bool {
     let greatest = match claim {
         Claim::Exponents(Claims { claims, .. }) => claims
             .iter()
@@ -189,7 +225,12 @@ fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::
         Claim::Hardware(claim) => Some(claim.epicentre.upper),
     };
     // A claim about no epicentre proves nothing of one.
-    let holds = greatest.is_some_and(|greatest| greatest <= bound);
+    greatest.is_some_and(|greatest| greatest <= bound)
+}
+
+/// Says whether the bound is proved.
+fn verdict(bound: f64, claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<Outcome> {
+    let holds = is_proved(bound, claim);
     if format == Format::Table {
         let said = if holds { "proved" } else { "NOT PROVED" };
         let about = claim.epicentres();

@@ -4,7 +4,6 @@ use std::io::Write;
 
 use hw_model::fit::Method;
 
-use crate::out::Out;
 use crate::table::{Cell, Format, Rows, digits};
 use bounds::certify::certificate::Claim;
 use bounds::certify::claim::{Claims, Enclosure, EveryClaim, ExponentClaim, Finding, Stretch};
@@ -19,14 +18,21 @@ const NARROW: f64 = 1e-6;
 /// Digits of a bound in a table.
 const DIGITS: usize = 9;
 
-pub(crate) fn claim(claim: &Claim, format: Format, out: &mut Out) -> anyhow::Result<()> {
+pub(crate) fn claim(claim: &Claim, format: Format, out: &mut dyn Write) -> anyhow::Result<()> {
     match (claim, format) {
         (Claim::Exponents(claims), Format::Table) => exponents_table(claims, out),
-        (Claim::Exponents(claims), format) => exponent_rows(&claims.claims).print(out, format, 17),
         (Claim::EveryExponent(claims), Format::Table) => every_table(claims, out),
-        (Claim::EveryExponent(claims), format) => every_rows(&claims.claims).print(out, format, 17),
         (Claim::Hardware(claim), Format::Table) => hardware_table(claim, out),
-        (Claim::Hardware(claim), format) => hardware_rows(claim).print(out, format, 17),
+        (claim, format) => rows(claim).print(out, format, 17),
+    }
+}
+
+/// Everything that is claimed, a line for each bound or exponent.
+pub(crate) fn rows(claim: &Claim) -> Rows {
+    match claim {
+        Claim::Exponents(claims) => exponent_rows(&claims.claims),
+        Claim::EveryExponent(claims) => every_rows(&claims.claims),
+        Claim::Hardware(claim) => hardware_rows(claim),
     }
 }
 
@@ -70,7 +76,7 @@ fn no_cells() -> [Cell; 2] {
     [Cell::None, Cell::None]
 }
 
-fn exponents_table(claims: &Claims<ExponentClaim>, out: &mut Out) -> anyhow::Result<()> {
+fn exponents_table(claims: &Claims<ExponentClaim>, out: &mut dyn Write) -> anyhow::Result<()> {
     let Claims { levels, claims } = claims;
     let count = |method: Method, region: Stretch| {
         claims.iter().filter(|claim| claim.method == method && claim.region == region).count()
@@ -173,7 +179,7 @@ fn exponent_rows(claims: &[ExponentClaim]) -> Rows {
     rows
 }
 
-fn every_table(claims: &Claims<EveryClaim>, out: &mut Out) -> anyhow::Result<()> {
+fn every_table(claims: &Claims<EveryClaim>, out: &mut dyn Write) -> anyhow::Result<()> {
     let Claims { levels, claims } = claims;
     let (q, g) = (levels.q(), levels.g());
     writeln!(out, "Every real n >= 1 on the epicentre, x^n >= Q; Q = {q}, G = {g}:")?;
@@ -218,7 +224,7 @@ fn every_rows(claims: &[EveryClaim]) -> Rows {
     rows
 }
 
-fn hardware_table(claim: &HardwareClaim, out: &mut Out) -> anyhow::Result<()> {
+fn hardware_table(claim: &HardwareClaim, out: &mut dyn Write) -> anyhow::Result<()> {
     let HardwareClaim { configuration, points, epicentre, full_range, rows } = claim;
     let count = rows.len();
     writeln!(out, "{}: {points} points, every x in [0, 1] of {count} exponents", configuration.name)?;
@@ -234,7 +240,7 @@ fn hardware_lines(
     overall: &Overall,
     rows: &[HardwareRow],
     of: fn(&HardwareRow) -> Worst,
-    out: &mut Out,
+    out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let (lower, upper) = (shortened(overall.lower, false), shortened(overall.upper, true));
     writeln!(out, "  {name:13}  {lower} and {upper}")?;
