@@ -33,4 +33,5 @@ pub use error::PlotError;
 pub use figures::{Curve, angle_grid, error_versus_exponent, intensity_versus_angle};
 pub use raster::{svg_to_pixels, svg_to_png};
 pub use spot::{Kind, Shape, Spot};
+pub use style::{Stroke, stroke};
 pub use texts::{Text, texts};

@@ -26,6 +26,8 @@ pub struct Spot {
     pub marked: bool,
     /// What is written beside it; nothing for an empty text.
     pub label: String,
+    /// What a reader is told who points at it, where the picture can: its full name and its values.
+    pub told: String,
 }
 
 /// A kind of points, for the legend.

@@ -56,6 +56,28 @@ pub(super) const fn colour_of(index: usize, mark: Mark) -> &'static str {
     }
 }
 
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stroke {
+    /// As CSS writes a colour.
+    pub colour: &'static str,
+    /// Lengths of dashes and gaps in turn, as SVG writes them; `None` for a line without gaps.
+    pub dashes: Option<&'static str>,
+    /// The width of the line, in SVG units.
+    pub width: f64,
+}
+
+impl Stroke {
+    /// The stroke of reference lines.
+    pub const REFERENCE: Self = Self { colour: REFERENCE_COLOUR, dashes: Some(REFERENCE_DASHES), width: 1.0 };
+}
+
+/// The stroke of the `index`-th series of a chart, for what draws charts elsewhere as the pictures do.
+#[must_use]
+pub const fn stroke(index: usize, mark: Mark) -> Stroke {
+    Stroke { colour: colour_of(index, mark), dashes: dashes(mark), width: stroke_width(mark) }
+}
+
 /// Width of a line: whole lines are wider, as broken ones are often drawn over them.
 pub(super) const fn stroke_width(mark: Mark) -> f64 {
     match mark {

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 /// Each crate of the product, and the crates of the workspace that it may know. A room that is not here has no place
 /// yet.
-const ARROWS: [(&str, &[&str]); 14] = [
+const ARROWS: [(&str, &[&str]); 15] = [
     ("hw-model", &[]),
     ("vectors", &["hw-model"]),
     ("sim", &["hw-model", "vectors"]),
@@ -17,15 +17,16 @@ const ARROWS: [(&str, &[&str]); 14] = [
     // Of vectors: the limits of work, progress, and the digests of seals.
     ("bounds", &["hw-model", "vectors"]),
     ("plot", &[]),
+    ("page", &["plot"]),
     ("analysis", &["hw-model", "vectors", "bounds", "plot"]),
     ("scenes", &["hw-model", "vectors", "bounds", "plot"]),
     ("blysk-python", &["hw-model", "vectors", "sim", "model", "bounds", "analysis"]),
     ("shard", &["hw-model", "vectors", "bounds", "analysis"]),
-    ("document", &["hw-model", "vectors", "sim", "plot"]),
+    ("document", &["hw-model", "vectors", "sim", "plot", "page"]),
     // What a register can hold is what the reference says of it.
-    ("serve", &["hw-model", "vectors", "sim", "analysis", "document"]),
+    ("serve", &["hw-model", "vectors", "sim", "analysis", "page", "document"]),
     // What it shows is drawn by those it asks.
-    ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "shard", "document", "serve"]),
+    ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "shard", "page", "document", "serve"]),
 ];
 
 /// What tests and benchmarks of a crate may know besides: those of the analyses time the clocked
@@ -36,10 +37,11 @@ const ARROWS_OF_TESTS: [(&str, &str); 2] = [("analysis", "sim"), ("blysk-c", "ve
 const TESTERS: [&str; 2] = ["blysk-tests", "naive"];
 
 /// Libraries that one crate names and no other.
-const AT_HOME: [(&str, &str); 12] = [
+const AT_HOME: [(&str, &str); 13] = [
     ("kuva", "plot"),
     ("resvg", "plot"),
     ("svg", "plot"),
+    ("pulldown-cmark", "page"),
     ("clap", "cli"),
     ("anyhow", "cli"),
     ("indicatif", "cli"),

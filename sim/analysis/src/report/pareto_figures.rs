@@ -188,7 +188,13 @@ fn spot(picture: &Picture<'_>, point: &Point<'_>, at: (f64, f64)) -> Spot {
     } else {
         family.to_owned()
     };
-    Spot { at, kind: kind(picture, row), filled: row.kind != "f32", marked: false, label }
+    Spot { at, kind: kind(picture, row), filled: row.kind != "f32", marked: false, label, told: told(picture, point) }
+}
+
+/// What is told of a contender that a reader points at: its name, and the values of both axes.
+fn told(picture: &Picture<'_>, point: &Point<'_>) -> String {
+    let (cost, error) = (point.cost, scientific(point.error));
+    format!("{}: greatest error {error}; {}: {cost}", point.row.contender, picture.cost)
 }
 
 /// 5.6·10⁻¹⁷; an error of 0 is said as such.

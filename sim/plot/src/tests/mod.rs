@@ -238,6 +238,7 @@ fn crowd() -> Chart {
                 filled: index % 2 == 0,
                 marked: index % 3 == 0,
                 label: format!("point_{index}"),
+                told: String::new(),
             }
         })
         .collect();

@@ -46,7 +46,14 @@ fn chart() -> Chart {
         front.extend([(corners[step - 1], heights[step]), (corners[step], heights[step])]);
     }
     chart.series = vec![Series::new("front", front, Mark::Solid)];
-    let spot = |at, kind, filled, label: &str| Spot { at, kind, filled, marked: false, label: label.to_owned() };
+    let spot = |at, kind, filled, label: &str| Spot {
+        at,
+        kind,
+        filled,
+        marked: false,
+        label: label.to_owned(),
+        told: String::new(),
+    };
     for (name, single, error, double) in METHODS {
         chart.series.push(Series::new("", vec![(double, error), (single, error)], Mark::Thin));
         chart.spots.push(spot((double, error), 0, true, ""));
