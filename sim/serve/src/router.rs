@@ -19,8 +19,8 @@ use crate::answers::{
     OpenAsk, Opened, archive,
 };
 use crate::app::App;
+use crate::files::ASSETS;
 use crate::guard::{Guard, guard};
-use crate::page::ASSETS;
 use crate::refusal::Refusal;
 
 /// The longest body: a configuration, which has more characters as a text in JSON, and what is asked about it.

@@ -24,7 +24,7 @@ const ARROWS: [(&str, &[&str]); 15] = [
     ("shard", &["hw-model", "vectors", "bounds", "analysis"]),
     ("document", &["hw-model", "vectors", "sim", "plot", "page"]),
     // What a register can hold is what the reference says of it.
-    ("serve", &["hw-model", "vectors", "sim", "analysis", "document"]),
+    ("serve", &["hw-model", "vectors", "sim", "analysis", "page", "document"]),
     // What it shows is drawn by those it asks.
     ("cli", &["hw-model", "vectors", "sim", "bounds", "analysis", "scenes", "shard", "page", "document", "serve"]),
 ];
