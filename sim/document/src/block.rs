@@ -163,12 +163,12 @@ impl Picture<'_> {
         let height = self.lanes.rom_foot - top;
         let words: Vec<String> = ["ROM".to_owned(), size].into_iter().chain(Self::ranks_in(&fetch)).collect();
         self.named(Part::Rom, |picture| picture.part((fetch.left, top), (BOX, height), colour::GREEN, &words));
-        let address = format!("address_i · {}", rom.address_width());
+        let address = format!("address_i ({})", rom.address_width());
         self.port_in(top + height / 2.0, &address, "");
         let x = self.lanes.x;
         let words = ["x".to_owned()];
         self.named(Part::Input, |picture| picture.part((fetch.left, x), (BOX, X_HEIGHT), colour::GREY, &words));
-        let port = format!("x_i · {}", formats.input.width());
+        let port = format!("x_i ({})", formats.input.width());
         self.port_in(x + X_HEIGHT / 2.0, &port, &formats.input.to_string());
         let words: Vec<String> = self.front_end_words().into_iter().chain(Self::ranks_in(&front)).collect();
         let place = (front.left, self.lanes.polynomial);
@@ -181,14 +181,14 @@ impl Picture<'_> {
                 Above::Field(name) => self.named(self.wire_of(name), |picture| picture.field(name, y)),
                 // To the box that takes in most, on the left: it is the lowest of its wires.
                 Above::NoWord => self.named(Part::Only(Register::Status), |picture| {
-                    picture.above(y, "no_word · 1", &front, -36.0);
+                    picture.above(y, "no_word (1)", &front, -36.0);
                 }),
             }
         }
     }
 
     fn x_wire(&mut self, fetch: &Column, front: &Column, y: f64) {
-        let label = format!("x · {}", self.datapath.formats().input.width());
+        let label = format!("x ({})", self.datapath.formats().input.width());
         if y < self.lanes.foot {
             self.wire(fetch.right(), front.left, y, &label, "");
         } else {
@@ -265,7 +265,7 @@ impl Picture<'_> {
         match field.place {
             Place::Constant { .. } | Place::Stored { .. } if together => {
                 let count = COUNTS[segments];
-                let label = format!("{name} of {count} segments · {}", field.format.width());
+                let label = format!("{name} of {count} segments ({})", field.format.width());
                 self.above(y, &label, &target, beside);
                 for column in self.passed(&target) {
                     self.carried(&column, y);
@@ -349,7 +349,7 @@ impl Picture<'_> {
         let y = self.lanes.region;
         self.named(Part::Choice, |picture| {
             picture.canvas.arrow(&[(front.right(), y), (last.left, y)]);
-            let words = "region · 2, status · 4";
+            let words = "region (2), status (4)";
             picture.canvas.text((front.right() + 5.0, y + 13.0), words, Anchor::Start, SMALL);
         });
         let middle = self.columns.len() - 1;
@@ -369,9 +369,9 @@ impl Picture<'_> {
         self.named(Part::Clamp, |picture| picture.part((last.left, top), (BOX, height), colour::GREY, &words));
         let output = self.datapath.formats().output;
         let out = |offset: f64| top + height * offset;
-        let port = format!("intensity_o · {}", output.width());
+        let port = format!("intensity_o ({})", output.width());
         self.port_out(out(0.3), &port, &output.to_string());
-        self.port_out(out(0.75), "status_o · 4", "");
+        self.port_out(out(0.75), "status_o (4)", "");
     }
 
     fn handshake(&mut self) {
@@ -411,7 +411,7 @@ pub(super) fn constant(name: Register, bits: i64, format: QFormat) -> String {
 }
 
 pub(super) fn labelled(name: &str, format: QFormat) -> String {
-    format!("{name} · {}", format.width())
+    format!("{name} ({})", format.width())
 }
 
 pub(super) fn dropped(bits: u32) -> String {

@@ -49,12 +49,12 @@ impl Picture<'_> {
         let width = last.right() - first.left;
         self.named(Part::Digits, |picture| picture.part((first.left, top), (width, LANE), colour::ORANGE, &words));
         let (d, digits) = (formats.divisor.width(), formats.digits.width());
-        let both = format!("D · {d}, rem · {d}");
-        let digits = format!("digits · {digits}");
+        let both = format!("D ({d}), rem ({d})");
+        let digits = format!("digits ({digits})");
         let (from, to) = (last.right(), self.last().left);
         self.named(Part::Digits, |picture| {
             picture.wire(divisor.right(), first.left, y, &both, &digits);
-            picture.wire(from, to, y, &format!("rem · {d}"), &digits);
+            picture.wire(from, to, y, &format!("rem ({d})"), &digits);
         });
         for column in self.columns.clone() {
             if column.first > last_rank && column.last < self.datapath.rank_count() - 1 {

@@ -58,13 +58,13 @@ fn the_block_diagram_shows_every_register_of_rank_0() {
             let segments = design.datapath().segment_count();
             let width = register.format.width();
             let label = match register.register {
-                Register::Status => "no_word · 1".to_owned(),
+                Register::Status => "no_word (1)".to_owned(),
                 // All segments' on one wire.
                 Register::C(_, power) if segments > 1 => {
                     let count = ["two", "three"][segments - 2];
-                    format!("c{power} of {count} segments · {width}")
+                    format!("c{power} of {count} segments ({width})")
                 }
-                register => format!("{register} · {width}"),
+                register => format!("{register} ({width})"),
             };
             let times = found.iter().filter(|text| text.words == label).count();
             assert_eq!(times, 1, "{}: {label}", design.config().name);
