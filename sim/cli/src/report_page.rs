@@ -34,7 +34,7 @@ pub(super) fn page(
     page.section(charts.iter().try_fold(Section::new("Plots"), |section, chart| section.plot(chart))?);
     let rows = all_rows(slice::from_ref(report), false);
     let caption = "Fractions of full intensity; every x with xⁿ ≥ Q, and full_range for all of [0, 1]";
-    page.section(Section::new("Every exponent").table(html::table(caption, &rows)));
+    page.section(Section::new("Every exponent").table(html::table(caption, &rows, html::DIGITS)));
     Ok(page.to_html()?)
 }
 
