@@ -16,7 +16,7 @@ fn made(bench: &Bench, place: &str) {
     ] {
         let _said = bench.good(&command);
     }
-    let certify = "certify --method hermite,three_point --exponents 1..=8 --format csv";
+    let certify = "certify --method hermite --exponents 1..=8 --format csv";
     let said = bench.good(&format!("{certify} --html {place}/certify.html"));
     bench.write(&format!("{place}/certify.csv"), said);
 }

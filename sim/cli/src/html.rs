@@ -6,14 +6,16 @@ use page::{Section, Table};
 
 use super::table::Rows;
 
-/// Significant digits of a real in a table of a page; CSV has all of them.
-const DIGITS: usize = 7;
+/// Significant digits of a real in a table of a page, where they need not be all.
+pub(super) const DIGITS: usize = 7;
+/// All digits of a real, as CSV has them: a proved bound that is shortened is none.
+pub(super) const ALL_DIGITS: usize = 17;
 
-/// Rows under their columns.
-pub(super) fn table(caption: &str, rows: &Rows) -> Table {
+/// Rows under their columns, with so many significant digits of a real.
+pub(super) fn table(caption: &str, rows: &Rows, significant: usize) -> Table {
     let mut table = Table::new(caption, &rows.columns);
     for row in &rows.rows {
-        table.row(row.iter().map(|cell| cell.shown(DIGITS).into()));
+        table.row(row.iter().map(|cell| cell.shown(significant).into()));
     }
     table
 }

@@ -36,6 +36,7 @@ mod render;
 mod render_more;
 mod report;
 mod report_page;
+mod report_tables;
 mod rom;
 mod rtl;
 mod scene;

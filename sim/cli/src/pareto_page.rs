@@ -17,7 +17,7 @@ pub(super) fn page(report: &ParetoReport, origin: &str, command: String) -> anyh
     page.lead(scope(report));
     page.verdict(verdict(report));
     for section in sections(report) {
-        let part = Section::new(section.title).table(html::table("", &section.rows));
+        let part = Section::new(section.title).table(html::table("", &section.rows, html::DIGITS));
         page.section(section.notes.into_iter().fold(part, Section::text));
     }
     let charts = figures(report);
@@ -34,7 +34,7 @@ fn contenders(report: &ParetoReport) -> Section {
     for row in &report.contenders {
         rows.push(vec![row.contender.clone().into(), row.what.clone().into()]);
     }
-    Section::new("What each computes").table(html::table("", &rows))
+    Section::new("What each computes").table(html::table("", &rows, html::DIGITS))
 }
 
 fn verdict(report: &ParetoReport) -> Verdict {

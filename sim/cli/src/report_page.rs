@@ -7,7 +7,7 @@ use page::{Page, Section, Standing, Verdict};
 
 use super::html;
 use super::out::Outcome;
-use super::report::{Args, Range, all_rows, percent, summary, verdict};
+use super::report_tables::{Range, all_rows, percent, summary, verdict};
 use super::table::digits;
 use analysis::error_report::ErrorReport;
 use analysis::report::files;
@@ -15,26 +15,27 @@ use analysis::report::files;
 /// The file of the page, beside the others of a report.
 pub(super) const FILE: &str = "report.html";
 
-/// The page of one configuration, which `option` chooses.
+/// The page of one configuration, which `command` makes. `curves` is the exponent of the plot of curves.
 pub(super) fn page(
-    args: &Args,
-    (design, option): (&Design, &str),
+    range: Range,
+    command: String,
+    design: &Design,
     report: &ErrorReport,
     curves: f64,
 ) -> anyhow::Result<String> {
     let name = &report.configuration;
-    let mut page = Page::new(format!("Error report: configuration {name}"), args.command(option));
+    let mut page = Page::new(format!("Error report: configuration {name}"), command);
     let description = &design.config().description;
     if !description.is_empty() {
         page.lead(format!("{description}."));
     }
-    page.verdict(judged(args.range, report));
+    page.verdict(judged(range, report));
     page.section(html::printed("Summary", |out| summary(design, report, out))?);
     let charts = files::charts(design, report, curves);
     page.section(charts.iter().try_fold(Section::new("Plots"), |section, chart| section.plot(chart))?);
     let rows = all_rows(slice::from_ref(report), false);
     let caption = "Fractions of full intensity; every x with xⁿ ≥ Q, and full_range for all of [0, 1]";
-    page.section(Section::new("Every exponent").table(html::table(caption, &rows)));
+    page.section(Section::new("Every exponent").table(html::table(caption, &rows, html::DIGITS)));
     Ok(page.to_html()?)
 }
 

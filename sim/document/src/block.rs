@@ -84,6 +84,13 @@ pub(super) fn block(design: &Design) -> String {
 }
 
 impl Picture<'_> {
+    /// Draws a part, whose element in the SVG names the registers that it stands for.
+    pub(super) fn named(&mut self, part: Part, draw: impl FnOnce(&mut Self)) {
+        self.canvas.open(&part.names(self.datapath));
+        draw(self);
+        self.canvas.close();
+    }
+
     pub(super) fn last(&self) -> Column {
         self.columns[self.columns.len() - 1]
     }

@@ -1,8 +1,7 @@
 //! The registers that each part of the block diagram stands for: what a page shows of it on a click.
 
+use hw_model::datapath::Datapath;
 use hw_model::registers::Register;
-
-use super::block::Picture;
 
 /// A part of the diagram.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,21 +49,15 @@ impl Part {
             Self::Only(only) => register == only,
         }
     }
-}
 
-impl Picture<'_> {
-    /// Draws a part, whose element in the SVG names the registers that it stands for.
-    pub(super) fn named(&mut self, part: Part, draw: impl FnOnce(&mut Self)) {
+    /// The names of the registers that it stands for, in the order of the ranks, with spaces between.
+    pub(super) fn names(self, datapath: &Datapath) -> String {
         let mut names: Vec<&str> = Vec::new();
-        for rank in 0..self.datapath.rank_count() {
-            for register in self.datapath.registers(rank) {
-                if part.has(register.register) && !names.contains(&register.name()) {
-                    names.push(register.name());
-                }
+        for register in (0..datapath.rank_count()).flat_map(|rank| datapath.registers(rank)) {
+            if self.has(register.register) && !names.contains(&register.name()) {
+                names.push(register.name());
             }
         }
-        self.canvas.open(&names.join(" "));
-        draw(self);
-        self.canvas.close();
+        names.join(" ")
     }
 }

@@ -36,7 +36,19 @@
   const words = (figure, curve, point) =>
     point.told || `${curve.name}: ${figure.x.label} = ${shown(point.x)}, ${figure.y.label} = ${shown(point.y)}`;
 
+  // The ticks of a logarithmic axis: powers of ten, with 2 and 5 times these where there are few. The library's own
+  // come to no end where the least value is not round.
+  const logarithmic = (low, high) => {
+    const digits = high / low > 2000 ? [1] : [1, 2, 5];
+    const ticks = [];
+    for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1) {
+      for (const digit of digits) ticks.push(Number(`${digit}e${power}`));
+    }
+    return ticks.filter((tick) => tick >= low * (1 - 1e-9) && tick <= high * (1 + 1e-9));
+  };
+
   const axis = (scaled, size) => ({
+    ...(scaled.log ? { splits: (_plot, _axis, low, high) => logarithmic(low, high), filter: (_plot, splits) => splits } : {}),
     label: scaled.label, labelGap: 0, labelSize: 22, size, font: "12px system-ui", labelFont: "13px system-ui",
     stroke: () => colours().ink, grid: { stroke: () => colours().grid, width: 1 },
     ticks: { stroke: () => colours().grid, width: 1 },
@@ -61,6 +73,8 @@
     const taken = [];
     ctx.save();
     ctx.font = `${11 * ratio}px system-ui`;
+    ctx.textAlign = "left";
+    ctx.textBaseline = "alphabetic";
     for (const spot of figure.spots) {
       const [x, y] = [plot.valToPos(spot.at[0], "x", true), plot.valToPos(spot.at[1], "y", true)];
       const path = new Path2D();
@@ -103,6 +117,9 @@
     ctx.restore();
   };
 
+  const SIGNS = { circle: "M10 6a4 4 0 1 0 8 0a4 4 0 1 0-8 0", square: "M10 2h8v8h-8z", diamond: "M14 1l5 5l-5 5l-5-5z",
+    triangle: "M14 1l5 9h-10z" };
+
   const legend = (figure, plot) => {
     const list = document.createElement("ul");
     list.className = "legend";
@@ -130,12 +147,8 @@
     const kinds = new Map(figure.spots.map((spot) => [spot.kind, spot]));
     for (const [kind, spot] of kinds) {
       const item = document.createElement("li");
-      const sign = { circle: "●", square: "■", diamond: "◆", triangle: "▲" }[spot.shape];
-      const mark = document.createElement("span");
-      mark.style.color = spot.colour;
-      mark.textContent = `${sign} `;
-      mark.setAttribute("aria-hidden", "true");
-      item.append(mark, kind);
+      item.innerHTML = sample(`<path d="${SIGNS[spot.shape]}" fill="${spot.colour}"/>`);
+      item.append(kind);
       list.append(item);
     }
     return list;

@@ -140,8 +140,11 @@ impl Args {
         let Subject { exponents, all_real_n, configuration, .. } = &self.subject;
         let mut command = format!("blysk certify {}", configuration.option()).trim_end().to_owned();
         if let Some(methods) = &self.method {
-            let names: Vec<String> = methods.0.iter().map(ToString::to_string).collect();
-            command.push_str(&format!(" --method {}", names.join(",")));
+            let one = |methods: &[Method]| match methods {
+                [method] => method.to_string(),
+                _ => "all".to_owned(),
+            };
+            command.push_str(&format!(" --method {}", one(&methods.0)));
         }
         if let Some(exponents) = exponents {
             command.push_str(&format!(" --exponents {exponents}"));

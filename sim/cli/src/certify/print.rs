@@ -39,7 +39,7 @@ pub(crate) fn rows(claim: &Claim) -> Rows {
 /// The positive `value` with this number of significant digits, never greater (never less with `up`).
 ///
 /// Every f64 is a finite decimal number, of which 800 digits are all.
-fn shortened(value: f64, up: bool) -> String {
+pub(super) fn shortened(value: f64, up: bool) -> String {
     if value == 0.0 || !value.is_finite() {
         return value.to_string();
     }
@@ -130,7 +130,7 @@ fn counted(enclosures: u32) -> String {
 }
 
 /// The claim with the greatest absolute error of each method and region.
-fn greatest(claims: &[ExponentClaim]) -> Vec<&ExponentClaim> {
+pub(super) fn greatest(claims: &[ExponentClaim]) -> Vec<&ExponentClaim> {
     let mut chosen: Vec<&ExponentClaim> = Vec::new();
     for claim in claims {
         let same = |other: &&ExponentClaim| (other.method, other.region) == (claim.method, claim.region);
