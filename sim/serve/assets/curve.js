@@ -3,7 +3,8 @@ import { $, ask, element, Line, say } from "./ask.js";
 
 const line = new Line();
 
-const HARDWARE = "#0072b2", REFERENCE = "#000000", REGIONS = { polynomial: "#0072b2", tail: "#d55e00", zero: "#009e73" };
+const HARDWARE = "#0072b2", REFERENCE = "#000000";
+const REGIONS = { polynomial: "#0072b2", tail: "#d55e00", zero: "#009e73" };
 
 const figure = (title, subtitle, data) => {
   const holder = element("figure", { class: "plot" },
@@ -34,7 +35,8 @@ const shown = (curve, answer, configuration) => {
     figure("Error: hardware less xⁿ", `${where}, in ulp of ${answer.intensity.format.name}`, {
       x: { label: "x = cos γ", log: false }, y: { label: "error, ulp", log: false },
       columns: [curve.x, ...regions.map(part)],
-      curves: regions.map((region) => ({ name: `${region} answers`, colour: REGIONS[region], width: 1.6, dashes: "", points: false })),
+      curves: regions.map((region) => (
+        { name: `${region} answers`, colour: REGIONS[region], width: 1.6, dashes: "", points: false })),
       spots: [spot(x, answer.error_ulp.value, `x = ${answer.x.decimal}: error ${answer.error_ulp.text} ulp`)],
     }),
   ];
