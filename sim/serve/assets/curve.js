@@ -13,8 +13,11 @@ const figure = (title, subtitle, data) => {
   return holder;
 };
 
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
 const spot = (x, y, told) => ({
-  at: [x, y], label: "", told, shape: "diamond", filled: true, marked: true, colour: "#e69f00", kind: "the present x",
+  at: [x, y], label: "", told, shape: "diamond", filled: true, marked: true, kind: "the present x",
+  colour: dark.matches ? "#e69f00" : "#a3231f",
 });
 
 const shown = (curve, answer, configuration) => {

@@ -6,7 +6,8 @@ let last = null;
 
 const summary = (answer) => {
   const { intensity, x } = answer;
-  const error = `${answer.error_ulp.text} ulp of ${intensity.format.name}, ${answer.error_per_cent.text} % of full intensity`;
+  const ulp = `${answer.error_ulp.text} ulp of ${intensity.format.name}`;
+  const error = `${ulp}, ${answer.error_per_cent.text} % of full intensity`;
   rows($("answer"), [
     ["Intensity", `${intensity.decimal}  (${intensity.format.name}: ${intensity.bits}, ${intensity.hex})`, "intensity"],
     ["xⁿ", answer.reference.text, "reference"],

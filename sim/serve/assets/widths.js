@@ -52,7 +52,8 @@ const compared = ({ before, after }) => {
 
 const result = (altered, name, use) => {
   const budget = altered.before.budget_ulp.text;
-  const verdict = altered.within_budget ? "the error budget holds" : `what is proved is above the error budget of ${budget} ulp`;
+  const above = `what is proved is above the error budget of ${budget} ulp`;
+  const verdict = altered.within_budget ? "the error budget holds" : above;
   const words = `${altered.register} in ${altered.format_after}: ${verdict}.`;
   const take = element("button", { type: "button", class: "action" }, "Use this configuration");
   const save = element("button", { type: "button", class: "action" }, "Its RTL as a zip");
