@@ -88,7 +88,8 @@ def highlight(page):
     checks.equal(len(page.driver.find_elements(By.CSS_SELECTOR, "#plots canvas")), 2, "plots")
     page.driver.execute_script("document.getElementById('computed').click()")
     shown = len(page.register_rows())
-    checks.true(0 < shown < len(evaluate("--preset", "paper", "--n", "3", "--x", "0.25")[1]), "fewer registers are shown")
+    every = len(evaluate("--preset", "paper", "--n", "3", "--x", "0.25")[1])
+    checks.true(0 < shown < every, "fewer registers are shown")
 
 
 def keyboard(page):
@@ -101,9 +102,8 @@ def keyboard(page):
     page["n-slider"].send_keys(Keys.ARROW_LEFT)
     asked("n = 63,")
     values(page, "one exponent less", "--preset", "compact", "--n", "63", "--x-bits", "8304723")
-    field = page["n"]
-    field.clear()
-    field.send_keys("16", Keys.TAB)
+    page["n"].send_keys(Keys.CONTROL, "a")
+    page["n"].send_keys("16", Keys.TAB)
     asked("n = 16,")
     page.driver.back()
     asked("n = 63,")
@@ -153,7 +153,8 @@ def clock(page):
     page["tick"].send_keys(Keys.ENTER)
     after(10)
     checks.equal(states()[0], "empty", "the first rank is left")
-    checks.equal(len(page.driver.find_elements(By.CSS_SELECTOR, "#wave .cycle")), 10, "a column of the waveform for each edge")
+    columns = page.driver.find_elements(By.CSS_SELECTOR, "#wave .cycle")
+    checks.equal(len(columns), 10, "a column of the waveform for each edge")
     cells = page.driver.execute_script("return document.querySelectorAll('#wave-table tbody tr')[0].children.length")
     checks.equal(cells, 11, "and of the table that says the same")
     page["begin"].click()
@@ -163,7 +164,7 @@ def clock(page):
 def refused(page):
     """What is wrong is said where it was written; the console shows the refusals, and nothing else."""
     page.open("#preset=compact&n=300&x=0.99")
-    checks.true("no ROM word" in page.text("status") or page.text("status") != "-", "an exponent without a word has a flag")
+    checks.true(page.text("status") != "-", "an exponent without a word has a flag")
     page.driver.execute_script("document.getElementById('paste').open = true")
     field = page["text"]
     field.clear()
@@ -176,7 +177,8 @@ def refused(page):
     page["x"].send_keys("7", Keys.TAB)
     page.until(lambda: page["question-problem"].is_displayed())
     checks.true("UQ1.23" in page.text("question-problem"), page.text("question-problem"))
-    unexpected = [entry["message"] for entry in page.driver.get_log("browser") if "status of 422" not in entry["message"]]
+    messages = [entry["message"] for entry in page.driver.get_log("browser")]
+    unexpected = [message for message in messages if "status of 422" not in message]
     checks.equal(unexpected, [], "refusals: console")
 
 

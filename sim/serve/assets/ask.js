@@ -71,26 +71,30 @@ export class Line {
 }
 
 export const rows = (list, pairs) =>
-  list.replaceChildren(...pairs.map(([name, value, id]) => element("div", {}, element("dt", {}, name), element("dd", id ? { id } : {}, value))));
+  list.replaceChildren(...pairs.map(([name, value, id]) =>
+    element("div", {}, element("dt", {}, name), element("dd", { id }, value))));
 
 export const table = (caption, heads, body) =>
   element("table", {}, element("caption", {}, caption),
     element("thead", {}, element("tr", {}, ...heads.map((head) => element("th", { scope: "col" }, head)))),
     element("tbody", {}, ...body));
 
-// The bits of a word in groups of four from the point, which stands before the last `fraction` of them, or further left.
+// The bits of a word in groups of four from the point, which stands before the last `fraction` of them, or further
+// left; `counted` says how many places from the point a bit stands.
+const grouped = (bits, counted) =>
+  [...bits].map((bit, at) => (at > 0 && counted(at) % 4 === 0 ? ` ${bit}` : bit)).join("");
+
 export const bits = (binary, fraction) => {
   const code = element("code", { class: "bits" });
   const whole = binary.slice(0, Math.max(0, binary.length - fraction));
   const behind = binary.slice(whole.length);
-  const groups = [...whole].map((bit, place) => ((whole.length - place) % 4 === 0 && place > 0 ? ` ${bit}` : bit)).join("");
-  code.append(groups);
+  code.append(grouped(whole, (at) => whole.length - at));
   if (fraction > 0) {
     code.append(element("b", { class: "point" }, "."));
     const missing = "0".repeat(fraction - behind.length);
-    const placed = (text, start) => [...text].map((bit, at) => ((start + at) % 4 === 0 && start + at > 0 ? ` ${bit}` : bit)).join("");
-    if (missing) code.append(element("i", { class: "quiet", title: "places that the word does not have" }, placed(missing, 0)));
-    code.append(placed(behind, missing.length));
+    const title = "places that the word does not have";
+    if (missing) code.append(element("i", { class: "quiet", title }, grouped(missing, (at) => at)));
+    code.append(grouped(behind, (at) => missing.length + at));
   }
   return code;
 };

@@ -10,10 +10,12 @@ const state = (rank) => (rank.stalled ? "waits" : rank.valid ? "moves on" : "emp
 
 const box = (rank) => {
   const registers = rank.registers.map((register) => element("tr", {},
-    element("th", { scope: "row" }, register.name), element("td", { class: "number" }, rank.loaded ? register.hex : "unknown")));
+    element("th", { scope: "row" }, register.name),
+    element("td", { class: "number" }, rank.loaded ? register.hex : "unknown")));
   return element("li", { class: rank.stalled ? "stalled" : rank.valid ? "valid" : "empty" },
     element("b", {}, rank.name), element("span", { class: "state" }, state(rank)),
-    element("details", {}, element("summary", {}, "registers"), element("table", {}, element("tbody", {}, ...registers))));
+    element("details", {}, element("summary", {}, "registers"),
+      element("table", {}, element("tbody", {}, ...registers))));
 };
 
 const show = (ranks) => {

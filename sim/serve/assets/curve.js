@@ -3,7 +3,8 @@ import { $, ask, element, Line, say } from "./ask.js";
 
 const line = new Line();
 
-const HARDWARE = "#0072b2", REFERENCE = "#000000", REGIONS = { polynomial: "#0072b2", tail: "#d55e00", zero: "#009e73" };
+const HARDWARE = "#0072b2", REFERENCE = "#000000";
+const REGIONS = { polynomial: "#0072b2", tail: "#d55e00", zero: "#009e73" };
 
 const figure = (title, subtitle, data) => {
   const holder = element("figure", { class: "plot" },
@@ -12,8 +13,11 @@ const figure = (title, subtitle, data) => {
   return holder;
 };
 
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
 const spot = (x, y, told) => ({
-  at: [x, y], label: "", told, shape: "diamond", filled: true, marked: true, colour: "#e69f00", kind: "the present x",
+  at: [x, y], label: "", told, shape: "diamond", filled: true, marked: true, kind: "the present x",
+  colour: dark.matches ? "#e69f00" : "#a3231f",
 });
 
 const shown = (curve, answer, configuration) => {
@@ -34,7 +38,8 @@ const shown = (curve, answer, configuration) => {
     figure("Error: hardware less xⁿ", `${where}, in ulp of ${answer.intensity.format.name}`, {
       x: { label: "x = cos γ", log: false }, y: { label: "error, ulp", log: false },
       columns: [curve.x, ...regions.map(part)],
-      curves: regions.map((region) => ({ name: `${region} answers`, colour: REGIONS[region], width: 1.6, dashes: "", points: false })),
+      curves: regions.map((region) => (
+        { name: `${region} answers`, colour: REGIONS[region], width: 1.6, dashes: "", points: false })),
       spots: [spot(x, answer.error_ulp.value, `x = ${answer.x.decimal}: error ${answer.error_ulp.text} ulp`)],
     }),
   ];

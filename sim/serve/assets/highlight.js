@@ -6,10 +6,12 @@ let last = null;
 
 const summary = (answer) => {
   const { intensity, x } = answer;
+  const ulp = `${answer.error_ulp.text} ulp of ${intensity.format.name}`;
+  const error = `${ulp}, ${answer.error_per_cent.text} % of full intensity`;
   rows($("answer"), [
     ["Intensity", `${intensity.decimal}  (${intensity.format.name}: ${intensity.bits}, ${intensity.hex})`, "intensity"],
     ["xⁿ", answer.reference.text, "reference"],
-    ["Error", `${answer.error_ulp.text} ulp of ${intensity.format.name}, ${answer.error_per_cent.text} % of full intensity`, "error"],
+    ["Error", error, "error"],
     ["Region that answers", answer.region, "region"],
     ["Status", answer.status, "status"],
     ["Asked", `n = ${answer.n.text}, x = ${x.text}  (${x.format.name}: ${x.bits}, ${x.hex})`, "asked"],
@@ -26,7 +28,7 @@ const row = (register) => {
     element("td", {}, element("code", {}, register.hex)),
     element("td", { class: "number" }, register.bits),
     element("td", { class: "number", title: register.decimal }, register.value),
-    element("td", { class: "range" }, `${range.least} … ${range.greatest}${known}`));
+    element("td", { class: "range", title: `${range.least} … ${range.greatest}` }, `${range.text}${known}`));
 };
 
 const ranks = () => {

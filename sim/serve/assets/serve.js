@@ -14,7 +14,8 @@ let answered = null;
 let x = { real: "0.99" };
 
 const fragment = () => {
-  const state = new URLSearchParams(configuration.preset ? { preset: configuration.preset } : { text: configuration.text });
+  const { preset, text } = configuration;
+  const state = new URLSearchParams(preset ? { preset } : { text });
   state.set("n", $("n").value.trim());
   state.set(x.bits === undefined ? "x" : "x_bits", x.bits ?? x.real);
   return `#${state}`;
@@ -40,16 +41,15 @@ const shownAnswer = (answer) => {
   $("n-slider").setAttribute("aria-valuetext", answer.n.text);
   $("x-slider").value = answer.x.bits;
   $("x-slider").setAttribute("aria-valuetext", answer.x.decimal);
-  if (x.bits !== undefined) $("x").value = answer.x.decimal;
+  if (x.bits !== undefined) $("x").value = answer.x.text;
 };
 
-const asked = (again) => {
+// What was answered is remembered: a number that is none leaves no way back to it.
+const asked = (again) => highlight(configuration, question().n, x, (answer) => {
   remember(again);
-  return highlight(configuration, question().n, x, (answer) => {
-    shownAnswer(answer);
-    curve(configuration, hardware, question().n, answer);
-  });
-};
+  shownAnswer(answer);
+  curve(configuration, hardware, question().n, answer);
+});
 
 const figures = () => {
   const of = hardware.figures;
@@ -144,7 +144,9 @@ const listen = () => {
   document.querySelectorAll("input[name=span]").forEach((radio) => radio.addEventListener("change", () => {
     if (answered) curve(configuration, hardware, question().n, answered);
   }));
-  $("rtl").addEventListener("click", () => saveRtl(configuration, hardware.name).catch((error) => say($("problem"), error)));
+  $("rtl").addEventListener("click", () => {
+    saveRtl(configuration, hardware.name).then(() => say($("problem"), null), (error) => say($("problem"), error));
+  });
   window.addEventListener("popstate", () => {
     const wanted = follow();
     if (wanted) same(wanted, configuration) ? asked(false) : use(wanted, false);

@@ -2,7 +2,7 @@
 import { element, table } from "./ask.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const WIDE = 44, HIGH = 26, NAMES = 96, MOST = 64;
+const WIDE = 56, HIGH = 26, NAMES = 96, MOST = 64;
 
 const drawn = (name, attributes, text) => {
   const made = document.createElementNS(SVG, name);
@@ -23,44 +23,51 @@ const line = (signal, cycles, top) => {
   const [high, low] = [top + 5, top + HIGH - 5];
   const path = cycles.map((cycle, place) => {
     const y = signal.level(cycle) ? high : low;
-    return `${place === 0 ? "M" : "L"}${NAMES + place * WIDE} ${y}H${NAMES + (place + 1) * WIDE}`;
+    return `${place === 0 ? "M" : "L"}${place * WIDE} ${y}H${(place + 1) * WIDE}`;
   });
   return [drawn("path", { d: path.join(""), class: signal.rank ? "level rank-level" : "level" })];
 };
 
 const bus = (signal, cycles, top) => cycles.flatMap((cycle, place) => {
-  const x = NAMES + place * WIDE;
-  const shape = { x: x + 1.5, y: top + 4, width: WIDE - 3, height: HIGH - 8, rx: 3, class: signal.known(cycle) ? "word" : "word idle" };
+  const x = place * WIDE;
+  const idle = signal.known(cycle) ? "" : " idle";
+  const shape = { x: x + 1.5, y: top + 4, width: WIDE - 3, height: HIGH - 8, rx: 3, class: `word${idle}` };
   const text = signal.word(cycle);
-  const shown = text.length > 6 ? `…${text.slice(-5)}` : text;
+  const shown = text.length > 7 ? `…${text.slice(-6)}` : text;
   const label = drawn("text", { x: x + WIDE / 2, y: top + HIGH / 2 + 4, class: "bits-text" }, shown);
-  label.append(drawn("title", {}, `${signal.name} = ${text}`));
   return signal.known(cycle) ? [drawn("rect", shape), label] : [drawn("rect", shape)];
 });
 
 export const wave = (place, seen, ranks) => {
   const cycles = seen.slice(-MOST);
   const rows = signals(ranks);
-  const [width, height] = [NAMES + Math.max(cycles.length, 1) * WIDE + 8, (rows.length + 1) * HIGH];
+  const [width, height] = [Math.max(cycles.length, 1) * WIDE + 8, (rows.length + 1) * HIGH];
   const words = cycles.length === 0 ? "no clock edge yet" : `cycles ${cycles[0].cycle} to ${cycles.at(-1).cycle}`;
-  const picture = drawn("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": `Waveform: ${words}` });
+  const size = { width, height, viewBox: `0 0 ${width} ${height}` };
+  const picture = drawn("svg", { ...size, role: "img", "aria-label": `Waveform: ${words}` });
+  // The names stay where they are while the cycles are scrolled.
+  const beside = { width: NAMES, height, viewBox: `0 0 ${NAMES} ${height}` };
+  const names = drawn("svg", { ...beside, class: "names", "aria-hidden": true });
   cycles.forEach((cycle, at) => {
-    const x = NAMES + (at + 1) * WIDE;
+    const x = (at + 1) * WIDE;
     picture.append(drawn("path", { d: `M${x} ${HIGH - 4}V${height}`, class: "edge" }),
       drawn("text", { x: x - WIDE / 2, y: 16, class: "cycle" }, String(cycle.cycle)));
   });
   rows.forEach((signal, at) => {
     const top = (at + 1) * HIGH;
-    picture.append(drawn("text", { x: 4, y: top + HIGH / 2 + 4, class: "signal" }, signal.name));
+    names.append(drawn("text", { x: 4, y: top + HIGH / 2 + 4 }, signal.name));
     picture.append(...(signal.level ? line : bus)(signal, cycles, top));
   });
-  place.replaceChildren(picture);
+  place.replaceChildren(names, picture);
   place.scrollLeft = place.scrollWidth;
 };
+
+const shown = (signal, cycle) => (signal.level ? String(Number(signal.level(cycle))) : signal.word(cycle));
 
 export const waveTable = (place, seen, ranks) => {
   const cycles = seen.slice(-MOST);
   const rows = signals(ranks).map((signal) => element("tr", {}, element("th", { scope: "row" }, signal.name),
-    ...cycles.map((cycle) => element("td", { class: "number" }, signal.level ? (signal.level(cycle) ? "1" : "0") : signal.word(cycle)))));
-  place.replaceChildren(table("A row for each port and rank, a column for each clock cycle", ["cycle", ...cycles.map((cycle) => String(cycle.cycle))], rows));
+    ...cycles.map((cycle) => element("td", { class: "number" }, shown(signal, cycle)))));
+  const heads = ["cycle", ...cycles.map(({ cycle }) => String(cycle))];
+  place.replaceChildren(table("A row for each port and rank, a column for each clock cycle", heads, rows));
 };

@@ -20,7 +20,8 @@ export const offer = (hardware) => {
   const share = (name) => hardware.figures.shares.find(({ register }) => register === name);
   $("register").replaceChildren(...registers.map(({ name, format }) => {
     const part = share(name);
-    return element("option", { value: name }, `${name}  ${format.name}${part ? `, ${part.ulp.text} ulp of the bound` : ""}`);
+    const told = part ? `, ${part.ulp.text} ulp of the bound` : "";
+    return element("option", { value: name }, `${name}  ${format.name}${told}`);
   }));
   $("altered").replaceChildren();
   say($("alter-problem"), null);
@@ -33,7 +34,7 @@ const compared = ({ before, after }) => {
   const lines = [
     ["Proved bound of coefficients and data path, ulp", (of) => of.proved_ulp.text],
     ["The same, measured, ulp", (of) => of.measured_ulp.text],
-    ["Error budget, ulp", (of) => of.budget_ulp.text],
+    ["Error budget of the configuration, ulp", (of) => of.budget_ulp.text],
     ["Greatest error for xⁿ ≥ Q", (of) => peak(of.epicentre)],
     ["Greatest error on [0, 1]", (of) => peak(of.everywhere)],
     ["Samples measured", (of) => of.samples],
@@ -50,17 +51,22 @@ const compared = ({ before, after }) => {
 };
 
 const result = (altered, name, use) => {
-  const words = altered.within_budget
-    ? `${altered.register} in ${altered.format_after}: the error budget holds.`
-    : `${altered.register} in ${altered.format_after}: what is proved is above the error budget of ${altered.before.budget_ulp.text} ulp.`;
+  const budget = altered.before.budget_ulp.text;
+  const above = `what is proved is above the error budget of ${budget} ulp`;
+  const verdict = altered.within_budget ? "the error budget holds" : above;
+  const words = `${altered.register} in ${altered.format_after}: ${verdict}.`;
   const take = element("button", { type: "button", class: "action" }, "Use this configuration");
   const save = element("button", { type: "button", class: "action" }, "Its RTL as a zip");
   take.addEventListener("click", () => use(altered.text));
-  save.addEventListener("click", () => saveRtl({ text: altered.text }, name).catch((error) => say($("alter-problem"), error)));
-  const heads = ["", `now: ${altered.register} ${altered.format_before}`, `then: ${altered.register} ${altered.format_after}`];
+  save.addEventListener("click", () => {
+    saveRtl({ text: altered.text }, name).catch((error) => say($("alter-problem"), error));
+  });
+  const { register, format_before: now, format_after: then } = altered;
+  const heads = ["", `now: ${register} ${now}`, `then: ${register} ${then}`];
   return [
     element("p", { class: `verdict ${altered.within_budget ? "good" : "bad"}`, id: "alter-verdict" }, words),
-    element("div", { class: "table", tabindex: 0, role: "region", "aria-label": "Now and then" }, table("What changes", heads, compared(altered))),
+    element("div", { class: "table", tabindex: 0, role: "region", "aria-label": "Now and then" },
+      table("What changes", heads, compared(altered))),
     element("p", { class: "fields" }, take, save),
   ];
 };

@@ -8,8 +8,8 @@ use tokio::time::timeout;
 
 use crate::refusal::Refusal;
 
-/// Who does the work of the answers. Work cannot be broken off: what goes past its deadline is not waited for, and keeps
-/// its worker until it ends.
+/// Who does the work of the answers. Work cannot be broken off: what goes past its deadline is not waited for, and
+/// keeps its worker until it ends.
 #[derive(Debug)]
 pub(crate) struct Pool {
     workers: Arc<Semaphore>,

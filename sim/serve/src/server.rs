@@ -69,8 +69,8 @@ impl Server {
         format!("http://{}/", self.address)
     }
 
-    /// Answers until `stop` returns, which waits on a thread of its own; then the requests under way are waited for, for
-    /// a moment, and the files of the server go.
+    /// Answers until `stop` returns, which waits on a thread of its own; then the requests under way are waited for,
+    /// for a moment, and the files of the server go.
     ///
     /// # Errors
     /// When the server cannot run.

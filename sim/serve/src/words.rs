@@ -6,7 +6,7 @@
 use document::facts::{Facts, Known};
 use hw_model::datapath::RankRegister;
 use hw_model::format::QFormat;
-use hw_model::quantise::decimal;
+use hw_model::quantise::{decimal, real};
 use serde::Serialize;
 use vectors::digits::digits;
 use vectors::evaluate::Held;
@@ -54,6 +54,8 @@ pub(crate) struct Range {
     pub(crate) least: String,
     /// The greatest real value.
     pub(crate) greatest: String,
+    /// Both as people read them.
+    pub(crate) text: String,
     /// `exact`, `bound`, or `format` where nothing more is known than what the format holds.
     pub(crate) known: &'static str,
 }
@@ -62,7 +64,9 @@ impl Range {
     /// Of a register in a rank.
     pub(crate) fn of(facts: &Facts<'_>, rank: usize, register: &RankRegister) -> Self {
         let held = facts.held(rank, register);
+        let shown = |bits| digits(real(bits, register.format), SHOWN);
         Self {
+            text: format!("{} … {}", shown(held.least), shown(held.greatest)),
             least: decimal(held.least, register.format),
             greatest: decimal(held.greatest, register.format),
             known: match held.known {

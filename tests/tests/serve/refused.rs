@@ -63,10 +63,7 @@ fn a_bad_configuration_is_refused_as_on_the_command_line() {
     let cases = [
         ("{\n  \"name\": 3\n}", Some((2, 11))),
         ("{\"name\": \"a\", \"method\": \"hermit\"}", Some((1, 33))),
-        (
-            "{\"name\": \"a\", \"method\": \"hermite\", \"exponents\": \"1..=4\", \"input\": \"UQ1.9\", \"output\": \"Q1.8\"}",
-            None,
-        ),
+        (r#"{"name": "a", "method": "hermite", "exponents": "1..=4", "input": "UQ1.9", "output": "Q1.8"}"#, None),
         ("", Some((1, 0))),
     ];
     for (text, place) in cases {

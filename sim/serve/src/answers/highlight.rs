@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use vectors::digits::digits;
 use vectors::evaluate::{Answer, Held, Question};
 use vectors::stimulus_file::{self, bits, exponent};
-use vectors::table::hex;
 
 use crate::configuration::Configuration;
 use crate::known::Known;
@@ -119,7 +118,7 @@ impl Port {
         Self {
             format: format.into(),
             bits: bits.to_string(),
-            hex: hex(bits, format),
+            hex: format!("0x{:x}", format.to_word(bits)),
             value,
             text: digits(value, 17),
             decimal: decimal(bits, format),
