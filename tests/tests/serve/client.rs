@@ -3,10 +3,12 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::process::{Child, Stdio};
+use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use blysk_tests::cli::Bench;
 use serde_json::Value;
+use serve::{Limits, Server, Start};
 
 /// `blysk serve` on a free port; it goes when this is dropped.
 pub struct Served {
@@ -92,7 +94,7 @@ pub fn post(port: u16, path: &str, body: &[u8]) -> Answer {
 
 fn raw(port: u16, request: &[u8]) -> Answer {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("the server listens");
-    stream.set_read_timeout(Some(Duration::from_secs(60))).expect("a timeout");
+    stream.set_read_timeout(Some(Duration::from_secs(600))).expect("a timeout");
     // A server may answer, and close, before it has read a body that is too long.
     let _ = stream.write_all(request);
     let mut answer = Vec::new();
@@ -101,4 +103,15 @@ fn raw(port: u16, request: &[u8]) -> Answer {
     let head = String::from_utf8(answer[..end].to_vec()).expect("a head is text");
     let status = head.split(' ').nth(1).and_then(|status| status.parse().ok()).expect("a status");
     Answer { status, head, body: answer.split_off(end + 4) }
+}
+
+/// Runs a server with these limits in this process while `work` asks it.
+pub fn with(limits: Limits, work: impl FnOnce(u16)) {
+    let server = Server::bind(0, Start::Preset("compact".to_owned()), limits).unwrap();
+    let port = server.address().trim_end_matches('/').rsplit_once(':').unwrap().1.parse().unwrap();
+    let (stop, stopped) = channel::<()>();
+    let running = std::thread::spawn(move || server.run(move || stopped.recv().is_err()));
+    work(port);
+    drop(stop);
+    assert!(running.join().unwrap().unwrap(), "it ran until it was told to stop");
 }

@@ -1,23 +1,11 @@
 //! Limits on work, of a server in this process.
 
-use std::sync::mpsc::channel;
 use std::time::Duration;
 
 use serde_json::json;
-use serve::{Limits, Server, Start};
+use serve::Limits;
 
-use crate::client::post;
-
-/// Runs a server with these limits while `work` asks it.
-fn with(limits: Limits, work: impl FnOnce(u16)) {
-    let server = Server::bind(0, Start::Preset("compact".to_owned()), limits).unwrap();
-    let port = server.address().trim_end_matches('/').rsplit_once(':').unwrap().1.parse().unwrap();
-    let (stop, stopped) = channel::<()>();
-    let running = std::thread::spawn(move || server.run(move || stopped.recv().is_err()));
-    work(port);
-    drop(stop);
-    assert!(running.join().unwrap().unwrap(), "it ran until it was told to stop");
-}
+use crate::client::{post, with};
 
 #[test]
 fn what_takes_too_long_is_not_waited_for() {
