@@ -29,9 +29,9 @@ use analysis::report::pareto as files;
 /// Compare every method and preset by error and cost, and tell which are dominated.
 ///
 /// Methods in f32 and f64, powf, repeated squaring, tables of straight lines, every preset and your own configurations
-/// (--config) bit for bit: the greatest and the RMS error over every representable x of every exponent (minutes of work;
-/// less with --every, --input or --exponents), run time side by side in this process, and the hardware's latency,
-/// multipliers and ROM. A contender is dominated when another is nowhere worse and somewhere better. With
+/// (--config) bit for bit: the greatest and the RMS error over every representable x of every exponent (minutes of
+/// work; less with --every, --input or --exponents), run time side by side in this process, and the hardware's
+/// latency, multipliers and ROM. A contender is dominated when another is nowhere worse and somewhere better. With
 /// --out, the directory gets pareto.csv, pareto_timing.csv, pareto.json, and plots as SVG and PNG. Exit status: 0; 1
 /// when --check finds a difference; 2 for an error.
 #[derive(ClapArgs)]

@@ -1,4 +1,4 @@
-//! `docs/SUMMARY.md`, the contents of the book that `make book` builds, names every page of docs/ once, and nothing else.
+//! `docs/SUMMARY.md`, the contents of the book that `make book` builds, names every page of docs/ once, and no other.
 
 use std::collections::BTreeSet;
 

@@ -1,5 +1,5 @@
-//! The commands of README, docs/COMMANDS.md and the tutorials work as they are printed, one after the other, in a directory that
-//! has nothing but the files of docs/ they name; and what the pages show of their output is there.
+//! The commands of README, docs/COMMANDS.md and the tutorials work as they are printed, one after the other, in a
+//! directory that has nothing but the files of docs/ they name; and what the pages show of their output is there.
 
 use std::collections::BTreeSet;
 use std::fs;

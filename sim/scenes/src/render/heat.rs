@@ -22,7 +22,7 @@ const SCALE_HEIGHT: f64 = 46.0;
 /// The most fields of the scale on either side of 0, and the most that all have their number.
 const MOST_FIELDS: i32 = 8;
 const MOST_NUMBERED: i32 = 4;
-/// The least end of a scale that follows from the differences: so a difference of one code never looks like a great one.
+/// The least end of a scale that follows from the differences: a difference of one code never looks like a great one.
 const LEAST_END: u16 = 4;
 
 /// ScenePipeline minus reference of each pixel: of its three colours the one that differs most.
