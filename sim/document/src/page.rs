@@ -118,7 +118,7 @@ impl Page<'_> {
         if last == each {
             format!("{each} in each of {} ranks", divider.digit_stages())
         } else {
-            format!("{each} in each of {} ranks, {last} in the last", divider.digit_stages() - 1)
+            format!("{each} in each of {} ranks and {last} in one more", divider.digit_stages() - 1)
         }
     }
 }
