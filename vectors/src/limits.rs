@@ -49,7 +49,7 @@ pub const MOST_SERVED_SESSIONS: usize = 16;
 pub const MOST_SERVED_CYCLES: u64 = 4096;
 
 /// Seconds that `blysk serve` waits for an answer: RTL with its vectors takes some of them.
-pub const SERVED_SECONDS: u64 = 60;
+pub const SERVED_SECONDS: u64 = 120;
 
 /// Requests of `blysk serve` that may wait for a worker.
 pub const SERVED_WAITING: usize = 16;

@@ -86,7 +86,8 @@ mod tests {
             let word = u64::from_str_radix(&held.binary(), 2).unwrap();
             assert_eq!(held.binary().len() as u32, held.format().width());
             assert_eq!(held.format().from_word(word), held.bits);
-            assert_eq!(held.hex(), format!("0x{word:0$x}", held.hex().len() - 2));
+            let digits = held.format().width().div_ceil(4) as usize;
+            assert_eq!(held.hex(), format!("0x{word:0digits$x}"));
             assert_eq!(held.decimal().parse::<f64>().unwrap(), held.value());
             negative += u32::from(held.bits < 0);
         }
