@@ -83,12 +83,14 @@ pub(super) fn delays(text: &str) -> anyhow::Result<Delays> {
 
 /// A table that comes with Blysk, or one in a file.
 pub(super) fn device(text: &str) -> anyhow::Result<Device> {
-    if Device::names().any(|name| name == text) {
-        return Ok(Device::Named(text.to_owned()));
-    }
+    Ok(match delays_file(text) {
+        Some(path) => Device::Table(configuration_file::delays(&path)?),
+        None => Device::Named(text.to_owned()),
+    })
+}
+
+/// The file of a table of delays, where `--device` names one and not a table that comes with Blysk.
+pub(super) fn delays_file(text: &str) -> Option<PathBuf> {
     let path = PathBuf::from(text);
-    if !path.exists() {
-        return Ok(Device::Named(text.to_owned()));
-    }
-    Ok(Device::Table(configuration_file::delays(&path)?))
+    (Device::names().all(|name| name != text) && path.exists()).then_some(path)
 }

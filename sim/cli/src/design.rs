@@ -106,7 +106,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     };
     let samples = check(&request)?;
     // Begun before the work, so that an unwritable place is found at once.
-    let file = output::file(args.out.as_ref(), &[])?;
+    let read: Vec<PathBuf> = args.device.as_deref().and_then(clock::delays_file).into_iter().collect();
+    let file = output::file(args.out.as_ref(), &read)?;
     let bar = Bar::new(Some(samples));
     let sized = size(&request, &bar)?;
     bar.finish();

@@ -9,7 +9,7 @@ use clap::{ArgGroup, Args as ClapArgs};
 use rayon::prelude::*;
 
 use super::bar::Bar;
-use super::clock::delays;
+use super::clock::{delays, delays_file};
 use super::configuration::MaybeConfiguration;
 use super::out::{Out, Outcome};
 use super::output;
@@ -98,7 +98,8 @@ pub(super) fn run(args: &Args, out: &mut Out) -> anyhow::Result<Outcome> {
     let rows = if args.nearest { RowFor::Nearest } else { RowFor::Exactly };
     let pipeline = ScenePipeline::with_rows(design, &scene, rows).with_context(scene_name)?;
     // Made before the work, so that an unwritable place is found at once.
-    let inputs = [read, args.configuration.files()].concat();
+    let delays = delays_file(&args.device).into_iter().collect();
+    let inputs = [read, args.configuration.files(), delays].concat();
     let compared = if args.compare.is_empty() { Vec::new() } else { pipelines(&designs, &scene, rows)? };
     let mut more = if compared.is_empty() { Vec::new() } else { files::COMPARED.to_vec() };
     more.extend(args.samples_per_pixel.map(|_| files::SMOOTH));

@@ -175,6 +175,12 @@ fn a_search_keeps_the_clock() {
     let rows = csv_rows(&bench.good("clock --config fast.json --device delays.json --format csv"));
     assert!(rows.iter().all(|row| number(row, "MHz") >= 240.0), "{rows:?}");
     let _held = bench.good("report --config fast.json --exhaustive --range all --bound 0.03");
+    // The table is read: it is not written over.
+    bench.refused(
+        &format!("{search} --clock-mhz 240 --device delays.json --out delays.json"),
+        &["delays.json is an input of this command"],
+    );
+    assert_eq!(bench.text("delays.json"), DELAYS);
     let run = bench.run(&format!("{search} --clock-mhz 900 --device delays.json"));
     assert!(run.status == 2 && run.stderr.contains("cannot be reached"), "{}", run.stderr);
     let run = bench.run(&format!("{search} --clock-mhz 100"));

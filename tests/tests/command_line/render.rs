@@ -218,6 +218,17 @@ fn clocks_are_those_of_the_pipelines() {
             assert!(preset == "paper" || (frames * cycles / (mhz * 1e6) - 1.0).abs() < 1e-9, "{row:?}, {report}");
         }
     }
+    // A table of delays is read, and not written over.
+    let delays = include_str!("../../../hw-model/src/clock/up5k.json");
+    std::fs::create_dir(bench.path("s")).unwrap();
+    bench.write("s/render.json", delays);
+    let over = ["--preset", "paper", "--device", "s/render.json", "--out", "s"];
+    let one_material = scene("one_material");
+    bench.refused_list(
+        &[&["render", one_material.to_str().unwrap()], &over[..]].concat(),
+        &["render.json is an input of this command"],
+    );
+    assert_eq!(bench.text("s/render.json"), delays);
     let twice = "--compare paper --clock-mhz 70 --device ecp5";
     let scene = scene("one_material");
     bench.refused_list(
