@@ -208,7 +208,7 @@
 
     const series = figure.curves.map((curve) => ({
       label: curve.name, stroke: () => drawn(curve.colour), width: curve.width, dash: dashes(curve.dashes), spanGaps: true,
-      points: { show: curve.points, size: 7, fill: () => drawn(curve.colour) },
+      points: { show: curve.points || curve.dots, size: 7, fill: () => drawn(curve.colour) },
       ...(curve.points ? { paths: () => null } : {}),
     }));
     const size = () => ({ width: Math.max(280, holder.clientWidth), height: HEIGHT });

@@ -31,7 +31,10 @@ struct Curve<'a> {
     colour: &'static str,
     dashes: Option<&'static str>,
     width: f64,
+    /// Points and no line.
     points: bool,
+    /// A dot at each point of a line.
+    dots: bool,
 }
 
 #[derive(Serialize)]
@@ -79,12 +82,12 @@ fn scaled(axis: &Axis) -> Scaled<'_> {
 fn curve((index, series): (usize, &Series)) -> Curve<'_> {
     let Stroke { colour, dashes, width } = stroke(series.colour.unwrap_or(index), series.mark);
     let points = series.mark == Mark::Points || series.points.len() == 1;
-    Curve { name: &series.name, colour, dashes, width, points }
+    Curve { name: &series.name, colour, dashes, width, points, dots: series.dots }
 }
 
 fn reference(label: &str) -> Curve<'_> {
     let Stroke { colour, dashes, width } = Stroke::REFERENCE;
-    Curve { name: label, colour, dashes, width, points: false }
+    Curve { name: label, colour, dashes, width, points: false, dots: false }
 }
 
 fn named<'a>(chart: &'a Chart, spot: &'a Spot) -> Named<'a> {
