@@ -12,6 +12,7 @@ import math
 import pathlib
 import sys
 
+from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
@@ -85,19 +86,35 @@ def sorted_and_searched(checks, driver, section, column):
 
 
 def asked_plot(checks, driver, what):
-    """Arrow keys and the pointer make a plot tell a point that its data has. Returns the data."""
+    """Arrow keys and the pointer make a plot tell a point. Returns its data, and what it told after two arrow keys."""
     data = json.loads(text(driver, "figure.plot script"))
     drawing = driver.find_element(By.CSS_SELECTOR, "figure.plot .drawing")
     before = text(driver, "figure.plot .told")
     drawing.send_keys(Keys.ARROW_RIGHT)
     first = text(driver, "figure.plot .told")
-    checks.true(first != before and "=" in first or ":" in first, f"{what}: an arrow key tells a point: {first}")
+    checks.true(first != before and ("=" in first or ":" in first), f"{what}: an arrow key tells a point: {first}")
     drawing.send_keys(Keys.ARROW_RIGHT)
     second = text(driver, "figure.plot .told")
     checks.true(second != first, f"{what}: the next arrow key tells the next point")
     canvas = driver.find_element(By.CSS_SELECTOR, "figure.plot canvas")
     checks.true(canvas.size["width"] > 200, f"{what}: the plot is drawn")
-    return data
+    pointed = pointed_at(driver, second)
+    checks.true(pointed != second and ("=" in pointed or ":" in pointed), f"{what}: the pointer tells one: {pointed}")
+    return data, second
+
+
+def pointed_at(driver, told):
+    """What the first plot tells, once the pointer has gone over it and met a point that was not told yet."""
+    area = driver.find_element(By.CSS_SELECTOR, "figure.plot .u-over")
+    width, height = area.size["width"], area.size["height"]
+    for row in range(1, 10):
+        for column in range(1, 20):
+            across, down = round((column / 20 - 0.5) * width), round((row / 10 - 0.5) * height)
+            ActionChains(driver, duration=0).move_to_element_with_offset(area, across, down).perform()
+            now = text(driver, "figure.plot .told")
+            if now != told:
+                return now
+    return told
 
 
 def document(checks, driver):
@@ -122,13 +139,12 @@ def report(checks, driver):
     wanted = rows_of(PLACE / "report/error_vs_n.csv")
     equal_tables(checks, table(driver, "every-exponent"), wanted, "report")
     sorted_and_searched(checks, driver, "every-exponent", "total_abs")
-    data = asked_plot(checks, driver, "report")
+    data, told = asked_plot(checks, driver, "report")
     at = wanted[0].index("total_abs")
     drawn = [y for y in data["columns"][1] if y is not None]
     checks.equal(len(drawn), len(wanted) - 1, "report: points of the first curve")
     for found, row in zip(drawn, wanted[1:]):
         checks.true(abs(found - 100 * float(row[at])) <= 1e-8, f"report: {found} % is {row[at]}")
-    told = text(driver, "figure.plot .told")
     checks.true(told.startswith("total, absolute: exponent n = 2"), f"report: told {told}")
 
 
@@ -146,7 +162,7 @@ def pareto(checks, driver):
 def certify(checks, driver):
     """The bounds are those that the command printed as CSV."""
     equal_tables(checks, table(driver, "every-bound"), rows_of(PLACE / "certify.csv"), "certify")
-    data = asked_plot(checks, driver, "certify")
+    data, _ = asked_plot(checks, driver, "certify")
     checks.equal(len(data["curves"]), 1, "certify: a curve for the method")
 
 
